@@ -20,10 +20,12 @@ struct Features {
   Vec3f position{};  // world space
   float depth = 0;   // distance along the ray from the camera's origin
   float coverage = 0;
-  std::uint32_t object = 0;         // number of the object, from 1; 0: none
-  std::uint32_t emission_rays = 1;  // of which the emission is the mean; at most max_emission_rays
+  std::uint32_t object = 0;  // number of the object, from 1; 0: none
+  // Of which the emission is the mean: as many as have its variance if they are over all of the pixel's filter; at most
+  // max_emission_rays.
+  std::uint32_t emission_rays = 1;
 };
-inline constexpr std::uint32_t max_emission_rays = 128;
+inline constexpr std::uint32_t max_emission_rays = 1 << 16;
 
 // A feature whose layer is the mean over the samples that hit a surface.
 struct FeatureRow {

@@ -145,18 +145,36 @@ void show_sky(const Scene& scene, const PathStart<F>& start, Mask<F> left, std::
   }
 }
 
-// The light of emitters that the pixels of these samples show directly, by rays of points of their own: all points of a
-// pixel in a pass are one (0,2)-set. Calls sink(on, contribution, light).
+// Numbers whose points on the picture are in a part of the pixel's filter.
+template <class F, NumberSource<F> Numbers>
+struct NumbersOfPart {
+  const Numbers& all;
+  const FilterPart<F>& part;
+  F get1(const Uint<F>& dimension) const { return all.get1(dimension); }
+  Vec2<F> get2(const Uint<F>& dimension) const {
+    const Vec2<F> u = all.get2(dimension);
+    if (lane(dimension, 0) != path_dimension::film) return u;
+    return {part.low.x + part.size.x * u.x, part.low.y + part.size.y * u.y};
+  }
+  RandomStream<F> stream(const Uint<F>& dimension) const { return all.stream(dimension); }
+};
+
+// The light of emitters that the pixels of these samples show directly, by rays of points of their own in a part of
+// their filters, beyond which they show none: all points of a pixel in a pass are one (0,2)-set. Calls sink(on,
+// contribution, light).
 template <class F, class Rays, class Sink>
 void show_lamps(const Scene& scene, const Rays& rays, const TilePass& pass, std::uint32_t count,
-                const PathSite<F>& site, Mask<F> on, Sink sink) {
+                const PathSite<F>& site, const FilterPart<F>& part, Mask<F> on, Sink sink) {
   using U = Uint<F>;
   PointSet points = pass.points;
   points.kind = PointSetKind::padded_sobol, points.seed = mix_bits(points.seed ^ 0x1f83d9abu);
   points.samples_per_pass *= count;
+  const F share_of_ray = part.mass() * F(1.0f / float(count));
   for (std::uint32_t i = 0; i < count; ++i) {
-    const PathStart<F> start =
-        start_of_path<F>(scene, {pass.tile, points, pass.shutter}, {site.x, site.y, site.index * U(count) + U(i)});
+    const PathSite<F> of_ray{site.x, site.y, site.index * U(count) + U(i)};
+    const auto numbers = numbers_of<F>(points, of_ray);
+    const NumbersOfPart<F, std::remove_cvref_t<decltype(numbers)>> of_part{numbers, part};
+    const PathStart<F> start = start_of_path<F>(scene, {pass.tile, points, pass.shutter}, of_ray, of_part);
     const Ray<F> ray{start.o, start.d, F(ray_infinity), start.time};
     const auto [found, hit] = rays.template trace<F>(ray, on, RayUse::camera);
     const Mask<F> met = meets_emitter<F>(scene, hit, found);
@@ -164,7 +182,7 @@ void show_lamps(const Scene& scene, const Rays& rays, const TilePass& pass, std:
     const SurfaceHit<F> x = surface_at<F>(scene.geometry, ray, hit, start.time, met);
     const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
     const LightHit<F> light = emission_met<F>(scene.lights, {ray.o, nowhere}, x, ray.d, met);
-    sink(met, light.radiance * (start.weight * F(1.0f / float(count))), x.light - U(1u));
+    sink(met, light.radiance * (start.weight * share_of_ray), x.light - U(1u));
   }
 }
 
@@ -203,12 +221,15 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
           const PathSite<F> site{pixel_x, pixel_y, U(first + sample)};
           if (const Mask<F> wanted = lamps.pixels->template at<F>(scene, rays, site.x, site.y, on); any(wanted)) {
             shown_.resize(out.size());
+            const FilterPart<F> part = lamps.pixels->template part<F>(site.x, site.y, wanted);
+            // As many rays over all of the filter would have as many in this part.
+            const F as_many = min(F(float(lamps.count)) / part.mass(), F(float(max_emission_rays)));
             for_each_lane(wanted, [&](int k) {
               const std::uint32_t output = lane(state.output, k);
-              shown_[output] = 1, out[output].features.emission_rays = lamps.count;
+              shown_[output] = 1, out[output].features.emission_rays = std::uint32_t(lane(as_many, k));
             });
             Spectrum<F> seen = gray(F(0.0f));
-            show_lamps<F>(scene, rays, pass, lamps.count, site, wanted,
+            show_lamps<F>(scene, rays, pass, lamps.count, site, part, wanted,
                           [&](Mask<F> met, const Spectrum<F>& contribution, [[maybe_unused]] const U& light) {
                             seen += select(met, contribution, gray(F(0.0f)));
                             if constexpr (TakesEarlyLight<Tally>)

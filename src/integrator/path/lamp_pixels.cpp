@@ -14,6 +14,8 @@ namespace {
 
 // An emitter of so many pixels along both axes is large: what nine points of a pixel's filter do not show is missed.
 constexpr float large = 4;
+// Parts of filters are looked for in so many pixels, some of which are in many boxes; then filters are whole.
+constexpr std::size_t max_parts = std::size_t(1) << 26;
 // Of larger pictures the pixels are not looked for: it would take more memory than their parts do.
 constexpr std::size_t max_pixels = std::size_t(1) << 25;
 
@@ -25,11 +27,6 @@ const ThinLens* lens_of(const Camera& camera) {
 }
 
 bool has_surface(LightKind kind) { return kind <= LightKind::cylinder; }
-
-struct RasterBox {
-  Vec2f low, high;
-  Vec2f size() const { return high - low; }
-};
 
 // Where the picture shows an emitter, as some points of the lens see it.
 struct Place {
@@ -188,7 +185,7 @@ Outline part_before(const Outline& outline, Vec2f d, float end) {
 
 // Boxes of the parts of an outline that is narrow and oblique, which its own box is much larger than.
 std::vector<RasterBox> boxes_along(const Outline& outline, float part_length) {
-  constexpr float max_parts = 256;
+  constexpr float max_pieces = 256;
   Vec2f axis{1, 0};
   float longest = 0;
   for (const Vec2f& p : outline)
@@ -197,7 +194,7 @@ std::vector<RasterBox> boxes_along(const Outline& outline, float part_length) {
   const Vec2f d = axis * (1 / std::sqrt(std::max(longest, 1e-12f)));
   float first = dot(outline[0], d), end = first;
   for (const Vec2f& p : outline) first = std::min(first, dot(p, d)), end = std::max(end, dot(p, d));
-  const int parts = int(std::clamp((end - first) / part_length, 1.0f, max_parts));
+  const int parts = int(std::clamp((end - first) / part_length, 1.0f, max_pieces));
   std::vector<RasterBox> boxes;
   for (int i = 0; i < parts; ++i) {
     const float from = first + (end - first) * float(i) / float(parts),
@@ -216,38 +213,57 @@ std::shared_ptr<const LampPixels> LampPixels::of(const Scene& scene, const Accel
                          !scene.materials.has_interfaces() && lens && width > 0 && height > 0 &&
                          std::size_t(width) * std::size_t(height) <= max_pixels;
   if (!is_simple) return nullptr;
-  std::shared_ptr<LampPixels> lamps(new LampPixels(width, height));
-  PixelBoxes large_ones(lamps->width_, lamps->height_), small_ones(lamps->width_, lamps->height_);
+  std::shared_ptr<LampPixels> lamps(new LampPixels(scene.filter, width, height));
+  PixelBoxes large_ones(lamps->width_, lamps->height_), small_ones(lamps->width_, lamps->height_),
+      whole_ones(lamps->width_, lamps->height_);
+  std::size_t parts = 0;
   const Vec2f radius = scene.filter.radius(), size{float(width), float(height)};
   for (std::uint32_t i = 0; i < scene.lights.count(); ++i) {
     const auto& bounds = scene.lights.bounds(LightId(i));
-    if (!bounds || !has_surface(scene.lights.kind(LightId(i)))) continue;
+    if (!has_surface(scene.lights.kind(LightId(i)))) continue;
+    if (!bounds) return nullptr;
     const Place sharp = place_of(*bounds, scene.camera, std::span(lens_points).first(1)),
                 seen = lens->open ? place_of(*bounds, scene.camera, lens_points) : sharp;
     if (!seen.in_view) continue;
     const RasterBox box = seen.known ? seen.box : RasterBox{{0, 0}, size};
+    // What is hidden by something else may still be seen in part: the part of a filter contains it, too.
+    const auto add_to_parts = [&](const RasterBox& part) {
+      if (parts < max_parts)
+        parts += lamps->parts_.add(part), whole_ones.add(part, radius * -1.0f);
+      else
+        whole_ones.add(part, radius);
+    };
     const std::optional<Outline> outline = lens->open ? std::nullopt : outline_of(scene, LightId(i));
     if (!sharp.known || (sharp.box.size().x >= large && sharp.box.size().y >= large)) {
       // Nine points miss what is narrow, and the tips of what is wide.
       if (outline && width_of(*outline) < large) {
-        for (const RasterBox& part : boxes_along(*outline, large / 2))
+        for (const RasterBox& part : boxes_along(*outline, large / 2)) {
+          add_to_parts(part);
           if (shows_emitter(scene, accel, quad_of(part))) small_ones.add(part, radius);
+        }
         continue;
       }
+      add_to_parts(box);
       if (outline)
         for (const Vec2f& tip : *outline) small_ones.add({tip, tip}, radius);
       large_ones.add(box, radius);
-    } else if (lens->open || shows_emitter(scene, accel, outline ? quad_of(*outline) : quad_of(box))) {
-      small_ones.add(box, radius);
+      continue;
     }
+    add_to_parts(box);
+    if (lens->open || shows_emitter(scene, accel, outline ? quad_of(*outline) : quad_of(box)))
+      small_ones.add(box, radius);
   }
   if (large_ones.is_empty() && small_ones.is_empty()) return nullptr;
   large_ones.for_each([&](std::size_t i) { lamps->states_[i].set(unknown); });
   small_ones.for_each([&](std::size_t i) { lamps->states_[i].set(some); });
+  whole_ones.for_each([&](std::size_t i) { lamps->parts_.make_whole(i); });
   return lamps;
 }
 
-LampPixels::LampPixels(int width, int height)
-    : width_(std::uint32_t(width)), height_(std::uint32_t(height)), states_(std::size_t(width) * std::size_t(height)) {}
+LampPixels::LampPixels(const Filter& filter, int width, int height)
+    : width_(std::uint32_t(width)),
+      height_(std::uint32_t(height)),
+      parts_(filter, width_, height_),
+      states_(std::size_t(width) * std::size_t(height)) {}
 
 }  // namespace montelux

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/accel.h"
+#include "integrator/path/filter_parts.h"
 #include "math/shared_byte.h"
 #include "scene/scene.h"
 
@@ -24,20 +25,27 @@ class LampPixels {
   // and a pure function of the scene.
   template <class F, class Rays>
   Mask<F> at(const Scene& scene, const Rays& rays, const Uint<F>& x, const Uint<F>& y, Mask<F> on) const;
+  // The part of these pixels' filters beyond which no emitter is seen; of pixels that are among them.
+  template <class F>
+  FilterPart<F> part(const Uint<F>& x, const Uint<F>& y, Mask<F> on) const {
+    return parts_.of<F>(x, y, on);
+  }
 
  private:
   enum State : std::uint8_t { none, unknown, some };
 
-  LampPixels(int width, int height);
+  LampPixels(const Filter& filter, int width, int height);
   std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t(y) * width_ + x; }
 
   std::uint32_t width_, height_;
+  FilterParts parts_;
   mutable std::vector<SharedByte> states_;
 };
 
 // Camera rays that show emitters alone: so many for each sample of such a pixel, instead of the sample's own ray, to
-// which all other light of the sample belongs. Rims of lamps and lamps that are smaller than a pixel make much of the
-// noise of a picture, and such a ray costs a small part of a path.
+// which all other light of the sample belongs. They are in the part of the pixel's filter that may show emitters. Rims
+// of lamps and lamps that are smaller than a pixel make much of the noise of a picture, and such a ray costs a small
+// part of a path.
 struct LampRays {
   const LampPixels* pixels = nullptr;  // null: none
   std::uint32_t count = 0;

@@ -86,7 +86,7 @@ Fields<PathSettings> common_fields() {
   fields.other(max_depth_spec())
       .text("roulette", "throughput, proportional, efficiency, fixed:PROBABILITY or off", read_roulette, roulette_text)
       .integer("roulette-depth", &PathSettings::roulette_depth, "scattering events before roulette", 0, 1 << 20)
-      .integer("lamp-rays", &PathSettings::lamp_rays, lamp_rays_meaning, 0, int(max_emission_rays))
+      .integer("lamp-rays", &PathSettings::lamp_rays, lamp_rays_meaning, 0, max_lamp_rays)
       .choice<Lanes>("lanes", &PathSettings::lanes, "number of paths traced together", lanes_names());
   return fields;
 }

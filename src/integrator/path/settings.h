@@ -23,6 +23,7 @@ enum class Lanes { one, native };
 NamedValues<Lanes> lanes_names();
 // The row of the maximum depth, which the catalogue reads, since a scene may state it too.
 ParameterSpec max_depth_spec();
+inline constexpr int max_lamp_rays = 128;
 inline constexpr char lamp_rays_meaning[] =
     "camera rays of each sample that show lamps in view, in pixels where lamps may be seen in part; 0: the sample's "
     "own";
@@ -77,7 +78,7 @@ struct PathSettings {
   std::shared_ptr<const LearnedLights> learned;
   // Rays for each sample of a pixel in which lamps may be in view, which show their light; 0: the sample's own ray
   // shows it. Where they may be, made where there is none.
-  int lamp_rays = 8;
+  int lamp_rays = 4;
   std::shared_ptr<const LampPixels> lamp_pixels;
   // Scattering events before roulette begins.
   int roulette_depth = 2;

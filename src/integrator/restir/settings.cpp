@@ -73,7 +73,7 @@ Fields<RestirSettings> fields_of(std::string_view name) {
       .formerly("chain")
       .integer("warm-up", &S::warm_up, "preceding frames that are not shown, with temporal=on", 0, 1024)
       .integer(
-          "lamp-rays", [](S& s) -> int& { return s.path.lamp_rays; }, lamp_rays_meaning, 0, int(max_emission_rays))
+          "lamp-rays", [](S& s) -> int& { return s.path.lamp_rays; }, lamp_rays_meaning, 0, max_lamp_rays)
       .other(max_depth_spec())
       .choice<Lanes>(
           "lanes", [](S& s) -> Lanes& { return s.path.lanes; }, "number of pixels computed together", lanes_names());

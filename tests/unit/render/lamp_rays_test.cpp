@@ -105,10 +105,11 @@ TEST(LampRays, are_spent_where_pixels_show_lamps_in_part) {
   };
   // The camera of this space looks along z with x to the left or to the right: both sides count.
   const auto either = [&](double x, double y) { return std::max(rays_at(x, y), rays_at(-x, y)); };
-  EXPECT_EQ(either(-4.22, 2.66), 8);  // the small lamp
-  EXPECT_EQ(either(1.5, -2), 8);      // the rim of the large one
-  EXPECT_EQ(either(4, -1), 1);        // within it
-  EXPECT_EQ(either(10.5, 6.5), 1);    // darkness
+  // They count for as many as there would be of the whole filter: small lamps have few of those.
+  EXPECT_GT(either(-4.22, 2.66), 16);  // the small lamp
+  EXPECT_GE(either(1.5, -2), 8);       // the rim of the large one
+  EXPECT_EQ(either(4, -1), 1);         // within it
+  EXPECT_EQ(either(10.5, 6.5), 1);     // darkness
   int pixels = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) pixels += film.features(x, y).emission_rays > passes * samples;

@@ -1,0 +1,108 @@
+// Parts of filters: they contain all of a filter's points in the boxes, and little else.
+#include "integrator/path/filter_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace montelux {
+namespace {
+
+constexpr std::uint32_t width = 24, height = 18;
+
+Filter filter_of(FilterKind kind) { return Filter::build(FilterDesc::usual(kind)); }
+
+RasterBox random_box(std::mt19937& numbers, float largest) {
+  std::uniform_real_distribution<float> uniform;
+  const Vec2f low{uniform(numbers) * 28 - 2, uniform(numbers) * 22 - 2};
+  return {low, {low.x + uniform(numbers) * largest, low.y + uniform(numbers) * largest}};
+}
+
+FilterPart<float> part_of(const FilterParts& parts, std::uint32_t x, std::uint32_t y) {
+  return parts.of<float>(Uint<float>(x), Uint<float>(y), Mask<float>(true));
+}
+
+// The integral of a filter's weight over the part of a box that a pixel has, by its values.
+double integral(const Filter& filter, const RasterBox& box, std::uint32_t x, std::uint32_t y) {
+  const Vec2f centre{float(x) + 0.5f, float(y) + 0.5f}, radius = filter.radius();
+  const double x0 = std::max(box.low.x - centre.x, -radius.x), x1 = std::min(box.high.x - centre.x, radius.x),
+               y0 = std::max(box.low.y - centre.y, -radius.y), y1 = std::min(box.high.y - centre.y, radius.y);
+  if (x0 >= x1 || y0 >= y1) return 0;
+  constexpr int points = 60;
+  double sum = 0;
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j)
+      sum += double(filter.evaluate(
+          Vec2<float>{float(x0 + (x1 - x0) * (i + 0.5) / points), float(y0 + (y1 - y0) * (j + 0.5) / points)}));
+  return sum * (x1 - x0) * (y1 - y0) / (points * points);
+}
+
+// The same by points of a part of the filter, as rays for lamps take them. `shrunk`: the part is so much smaller.
+double by_part(const Filter& filter, FilterPart<float> part, const RasterBox& box, std::uint32_t x, std::uint32_t y,
+               float shrunk = 1) {
+  part.size = part.size * shrunk;
+  constexpr int points = 300;
+  double sum = 0;
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j) {
+      const Vec2<float> u{part.low.x + part.size.x * (float(i) + 0.5f) / points,
+                          part.low.y + part.size.y * (float(j) + 0.5f) / points};
+      const FilterSample<float> s = filter.sample(u);
+      const float at_x = float(x) + 0.5f + s.offset.x, at_y = float(y) + 0.5f + s.offset.y;
+      if (at_x >= box.low.x && at_x < box.high.x && at_y >= box.low.y && at_y < box.high.y) sum += double(s.weight);
+    }
+  return sum * double(part.mass()) / (points * points);
+}
+
+TEST(FilterParts, have_the_light_of_a_box) {
+  std::mt19937 numbers(5);
+  std::uniform_int_distribution<std::uint32_t> columns(0, width - 1), rows(0, height - 1);
+  int found = 0, lost = 0;
+  for (const FilterKind kind :
+       {FilterKind::box, FilterKind::gaussian, FilterKind::mitchell, FilterKind::sinc, FilterKind::triangle}) {
+    const Filter filter = filter_of(kind);
+    for (int test = 0; test < 30; ++test) {
+      const RasterBox box = random_box(numbers, 6), other = random_box(numbers, 2);
+      FilterParts parts(filter, width, height);
+      parts.add(box), parts.add(other);
+      for (int pixel = 0; pixel < 40; ++pixel) {
+        const std::uint32_t x = columns(numbers), y = rows(numbers);
+        const double expected = integral(filter, box, x, y);
+        if (std::abs(expected) < 1e-3) continue;
+        const FilterPart<float> part = part_of(parts, x, y);
+        if (!(part.mass() > 0)) continue;  // within the box
+        // Points of a grid are beside the edges of a box.
+        const double near = 0.03 * std::abs(expected) + 0.015 * double(part.mass());
+        EXPECT_NEAR(by_part(filter, part, box, x, y), expected, near);
+        lost += std::abs(by_part(filter, part, box, x, y, 0.8f) - expected) > near;
+        ++found;
+      }
+    }
+  }
+  EXPECT_GT(found, 100);
+  EXPECT_GT(lost, found / 4);  // of a smaller part
+}
+
+TEST(FilterParts, are_small_where_little_of_a_filter_meets_a_box) {
+  const Filter filter = filter_of(FilterKind::gaussian);
+  FilterParts parts(filter, width, height);
+  parts.add({{10.4f, 8.4f}, {10.6f, 8.6f}});
+  EXPECT_LT(part_of(parts, 10, 8).mass(), 0.05f);   // a fifth of a pixel wide, at the centre
+  EXPECT_LT(part_of(parts, 11, 9).mass(), 0.005f);  // beside it
+  EXPECT_LT(part_of(parts, 11, 8).mass(), 0.015f);
+}
+
+TEST(FilterParts, are_whole_within_a_box_and_where_there_is_none) {
+  const Filter filter = filter_of(FilterKind::triangle);
+  FilterParts parts(filter, width, height);
+  EXPECT_EQ(part_of(parts, 3, 4).mass(), 1.0f);
+  // Pixels whose filters are within the box are left to make_whole().
+  const std::size_t at_rim = parts.add({{4, 4}, {20, 14}});
+  EXPECT_EQ(at_rim, 20u * 14u - 12u * 6u);
+  parts.make_whole(9 * width + 12);
+  EXPECT_EQ(part_of(parts, 12, 9).mass(), 1.0f);
+}
+
+}  // namespace
+}  // namespace montelux
