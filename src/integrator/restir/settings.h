@@ -45,6 +45,9 @@ struct RestirSettings {
   bool direct = true;
   PathReuse indirect;
   PathSettings path;  // of the light that is not reused
+
+  // A sample takes longer than one of `path`: more rays for lamps pay off.
+  RestirSettings() { path.lamp_rays = 8; }
 };
 
 EntitySpec restir_di_spec();
