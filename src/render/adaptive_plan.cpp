@@ -59,8 +59,7 @@ WorkRound AdaptivePlan::next_round(const Film& film, const PassPlan& passes, con
   bool is_whole = true;
   std::size_t number = 0;
   for (const auto& [index, tile] : film.tiles()) is_whole &= int(tile.passes.size()) == passes_at(level, number++);
-  if (judge_ && is_whole && looks_.is_look(level) && judge_->judge(film, false, stops).reaches(judge_->target()))
-    return {};
+  if (judge_ && is_whole && looks_.is_look(level) && judge_->is_reached(film, stops)) return {};
   const int end = std::min(looks_.after(level), passes.passes);
   // Level by level, so that a render that is stopped has about the same shares.
   std::vector<WorkUnit> units;

@@ -93,6 +93,14 @@ TargetState TargetJudge::judge(const Film& film, bool single_look, const std::fu
   return montelux::judge(target_, planes, error, image, spent, filtered);
 }
 
+bool TargetJudge::is_reached(const Film& film, const std::function<bool()>& stops) const {
+  // A filter takes long: it is not tried where it would have to remove more than it ever does, which is 0.85 of the
+  // error in the scenes of docs/denoising.md.
+  constexpr double max_gain = 10;
+  if (filter_ && std::sqrt(film.error().relative_mse) > max_gain * target_.error) return false;
+  return judge(film, false, stops).reaches(target_);
+}
+
 TargetState TargetJudge::judge(const FilmPlanes& planes, const ErrorEstimate& error, const ImageEstimate& image) const {
   const std::optional<FilteredError> filtered = last_ ? last_->scaled_to(error.relative_mse) : std::nullopt;
   return montelux::judge(target_, planes, error, image, 1, filtered);

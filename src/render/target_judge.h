@@ -56,6 +56,8 @@ class TargetJudge {
   // The same of a film that is in work, by its planes: what noise would be left is that of the last whole film, scaled
   // by how the error before the filter has changed since.
   TargetState judge(const FilmPlanes& planes, const ErrorEstimate& error, const ImageEstimate& image) const;
+  // Whether a look shows that the whole film has the requested error.
+  bool is_reached(const Film& film, const std::function<bool()>& stops = {}) const;
 
  private:
   ErrorTarget target_;

@@ -61,7 +61,7 @@ WorkRound TargetPlan::next_round(const Film& film, const PassPlan& passes, const
   const PassesDone done = passes_of(film, passes);
   if (done.all >= passes.passes) return {};
   const bool is_whole = done.all == done.any;
-  if (is_whole && looks_.is_look(done.all) && judge_.judge(film, false, stops).reaches(judge_.target())) return {};
+  if (is_whole && looks_.is_look(done.all) && judge_.is_reached(film, stops)) return {};
   // A round that was interrupted is completed first.
   const int end = std::min(looks_.after(is_whole ? done.all : done.any - 1), passes.passes);
   const std::size_t tiles = film.tiles().size();

@@ -143,6 +143,18 @@ TEST(DenoisedTarget, filters_a_film_once) {
   EXPECT_EQ(calls, 2);
 }
 
+TEST(DenoisedTarget, does_not_try_a_filter_that_would_have_to_remove_nearly_all) {
+  int calls = 0;
+  const auto count = [&calls](const Film&, const auto&) {
+    ++calls;
+    return FilteredError{0.01, 0.004, 0.001};
+  };
+  render_to(TargetJudge(ErrorTarget{TargetMeasure::denoised, 0.001}, count), 3, {}, 20);
+  EXPECT_EQ(calls, 0);
+  render_to(TargetJudge(ErrorTarget{TargetMeasure::denoised, 0.05}, count), 3, {}, 20);
+  EXPECT_GT(calls, 2);
+}
+
 // While a film is in work, by what was left of the last film.
 TEST(DenoisedTarget, foresees_what_will_be_left) {
   const TargetJudge judge(target, [](const Film&, const auto&) { return FilteredError{0.01, 0.004, 0.001}; });
