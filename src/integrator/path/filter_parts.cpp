@@ -36,29 +36,30 @@ FilterParts::Range FilterParts::range(int axis, float low, float high) const {
 
 std::size_t FilterParts::add(const RasterBox& box) {
   if (parts_.empty()) parts_.resize(std::size_t(width_) * height_);
-  // Along one axis: the pixels whose filters meet the box, and the part of each.
+  // Along one axis: the pixels whose filters meet the box, the part of each, and those whose filters reach beyond it.
+  // What is left out is within the box itself: a part that is all of a filter by the steps of the table may not be.
   struct Span {
     std::uint32_t first, end;
     std::vector<Range> ranges{};
+    std::vector<std::uint32_t> all{}, beyond{};
+    bool reaches_beyond(std::uint32_t i) const { return std::ranges::binary_search(beyond, i); }
   };
   const auto span_of = [&](int axis, float low, float high, float radius, std::uint32_t count) {
     const auto pixel = [&](float x) { return std::uint32_t(std::clamp(x, 0.0f, float(count))); };
     Span span{pixel(std::ceil(low - radius - rounding - 0.5f)), pixel(std::floor(high + radius + rounding + 0.5f))};
-    for (std::uint32_t i = span.first; i < span.end; ++i)
-      span.ranges.push_back(range(axis, low - float(i) - 0.5f, high - float(i) - 0.5f));
+    for (std::uint32_t i = span.first; i < span.end; ++i) {
+      const float centre = float(i) + 0.5f;
+      span.ranges.push_back(range(axis, low - centre, high - centre)), span.all.push_back(i);
+      if (centre - radius < low || centre + radius > high) span.beyond.push_back(i);
+    }
     return span;
   };
   const Span columns = span_of(0, box.low.x, box.high.x, radius_.x, width_),
              rows = span_of(1, box.low.y, box.high.y, radius_.y, height_);
-  std::vector<std::uint32_t> all, cut;  // columns
-  for (std::uint32_t x = columns.first; x < columns.end; ++x) {
-    all.push_back(x);
-    if (!columns.ranges[x - columns.first].is_whole()) cut.push_back(x);
-  }
   std::size_t count = 0;
   for (std::uint32_t y = rows.first; y < rows.end; ++y) {
     const Range& row = rows.ranges[y - rows.first];
-    const std::vector<std::uint32_t>& pixels = row.is_whole() ? cut : all;
+    const std::vector<std::uint32_t>& pixels = rows.reaches_beyond(y) ? columns.all : columns.beyond;
     for (const std::uint32_t x : pixels) {
       Part& part = parts_[std::size_t(y) * width_ + x];
       part.x.extend(columns.ranges[x - columns.first]), part.y.extend(row);

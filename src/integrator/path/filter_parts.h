@@ -49,7 +49,6 @@ class FilterParts {
   static constexpr Number last = 0xffff;  // stands for 1
   struct Range {
     Number low = last, high = 0;
-    bool is_whole() const { return low == 0 && high == last; }
     void extend(const Range& other) { low = std::min(low, other.low), high = std::max(high, other.high); }
   };
   struct Part {

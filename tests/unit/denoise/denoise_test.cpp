@@ -174,6 +174,23 @@ TEST(Denoise, states_the_error_of_the_image_and_of_the_result) {
   }
 }
 
+// The spread of what is stated around the truth, in the deviations that are stated with it.
+TEST(Denoise, knows_how_uncertain_the_stated_error_is) {
+  constexpr unsigned seeds = 40;
+  double squares = 0;
+  for (unsigned seed = 0; seed < seeds; ++seed) {
+    const Made m = made(seed);
+    const DenoisedImage result = denoise(m.image);
+    const double off = result.relative_mse - mean_relative_error(result.color, m.truth);
+    squares += off * off / (result.relative_deviation * result.relative_deviation) / seeds;
+    EXPECT_GT(result.unfiltered, 0);
+    EXPECT_LT(result.unfiltered, result.noisy_relative_mse);
+  }
+  // Deviations that were half or twice as large would be out of this range.
+  EXPECT_GT(std::sqrt(squares), 0.65);
+  EXPECT_LT(std::sqrt(squares), 1.3);
+}
+
 TEST(Denoise, keeps_edges_that_only_the_colours_show) {
   const Made m = made(2, 0.5f, {0.02, 0.02, 0.02});
   const DenoisedImage result = denoise(m.image);

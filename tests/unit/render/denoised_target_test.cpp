@@ -155,7 +155,7 @@ TEST(DenoisedTarget, does_not_try_a_filter_that_would_have_to_remove_nearly_all)
   EXPECT_GT(calls, 2);
 }
 
-// While a film is in work, by what was left of the last film.
+// While a film is in work, by what was left of the last film. The tolerances are those of rounding.
 TEST(DenoisedTarget, foresees_what_will_be_left) {
   const TargetJudge judge(target, [](const Film&, const auto&) { return FilteredError{0.01, 0.004, 0.001}; });
   const Film film = render_to(judge_of(of_noise, 1), 3, {}, 8).film;
