@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "api/denoisers.h"
 #include "api/images.h"
 #include "api/json_text.h"
 #include "denoise_output.h"
@@ -22,6 +23,7 @@ namespace {
 struct DenoiseArguments {
   std::string picture;
   std::vector<std::string> outputs, before;
+  std::optional<std::string> denoiser;
   int threads = 0;
   bool json = false, quiet = false;
 };
@@ -50,8 +52,10 @@ Status write_output(const std::string& file, const DenoisedFile& denoised) {
 int run_denoise(const DenoiseArguments& arguments) {
   for (const std::string& file : arguments.outputs)
     if (Status good = check_picture_file(file); !good) return complain(good.error());
-  const Result<DenoisedFile> denoised =
-      denoise_file(arguments.picture, {arguments.threads, {}, {arguments.before.begin(), arguments.before.end()}});
+  const auto filter = parse_denoiser(arguments.denoiser.value_or("montelux"));
+  if (!filter) return complain(filter.error());
+  const DenoiseOptions options{arguments.threads, {}, {arguments.before.begin(), arguments.before.end()}, {}, *filter};
+  const Result<DenoisedFile> denoised = denoise_file(arguments.picture, options);
   if (!denoised) return complain(denoised.error());
   int status = done;
   for (const std::string& file : arguments.outputs)
@@ -91,6 +95,7 @@ void add_denoise(CLI::App& app, Action& chosen) {
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_denoiser_option(verb, arguments->denoiser, "");
   add_option(verb, {"--threads", "T", "threads; default: one for each processor"},
              into(arguments->threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
   verb.add_flag("--json", arguments->json, "the estimated errors, as one JSON object");

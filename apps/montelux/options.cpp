@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "api/denoisers.h"
 #include "api/images.h"
 
 namespace montelux::cli {
@@ -276,6 +277,19 @@ void add_display_options(CLI::App& verb, DisplayRequest& display) {
                  if (color_map_names[i] == *name) display.map = ColorMap(i);
                return Done{};
              });
+}
+
+void add_denoiser_option(CLI::App& verb, std::optional<std::string>& denoiser, const std::string& help) {
+  add_option(
+      verb,
+      {"--denoiser", alternatives(names_of(denoiser_names())),
+       "filter that removes noise: montelux (default), or oidn, which is Intel's Open Image Denoise, where it is "
+       "installed (or oidn:library=FILE)" +
+           help},
+      [&denoiser](const std::string& text) -> Status {
+        denoiser = text;
+        return check_denoiser(text);
+      });
 }
 
 }  // namespace montelux::cli

@@ -1,6 +1,7 @@
 // Options of the command line: reading their values, and adding them to the parser.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,5 +68,7 @@ void add_option(CLI::App& verb, const OptionText& text, Setter set);
 // Options that several verbs share.
 void add_scene_options(CLI::App& verb, std::string& file, LoadOptions& options);
 void add_display_options(CLI::App& verb, DisplayRequest& display);
+// --denoiser; `help` follows what its values mean.
+void add_denoiser_option(CLI::App& verb, std::optional<std::string>& denoiser, const std::string& help);
 
 }  // namespace montelux::cli

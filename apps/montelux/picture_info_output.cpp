@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/json_text.h"
+#include "denoise_output.h"
 #include "picture_output.h"
 #include "progress.h"
 
@@ -80,8 +81,8 @@ void print_error(const RenderFacts& facts) {
     print_line(
         "", fmt::format("low to high contain the true value of a pixel with {:g} %", 100 * *facts.interval_confidence));
   if (facts.denoised_relative_mse)
-    print_line("denoised",
-               fmt::format("{:.3g} % per pixel is left, bias included", 100 * std::sqrt(*facts.denoised_relative_mse)));
+    print_line("denoised", fmt::format("{}{:.3g} % per pixel is left, bias included", by_whom(facts.denoiser),
+                                       100 * std::sqrt(*facts.denoised_relative_mse)));
   if (!facts.target.empty()) print_line("target", fmt::format("{}; reached: {}", facts.target, facts.target_reached));
 }
 

@@ -214,6 +214,8 @@ void add_render_options(CLI::App& verb, RenderArguments& arguments) {
           "remove noise: adds the layers denoised and denoised_error (what is left, bias included) to an .exr, with "
           "those of both halves; other files show the denoised colours")
       ->excludes("--interactive-budget");
+  add_denoiser_option(verb, arguments.render.denoiser, "; implies --denoise");
+  verb.get_option("--denoiser")->excludes("--interactive-budget");
   verb.add_flag(
       "--half", arguments.half,
       "light, albedo and normals of an .exr as 16-bit floats, which halves the file; other layers stay 32-bit");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "api/denoisers.h"
 #include "api/images.h"
 #include "api/render.h"
 #include "camera/table.h"
@@ -67,6 +68,7 @@ struct Topic {
 constexpr Topic topics[] = {
     {"integrators", "algorithms for --integrator", [] { return entries_of(integrator_catalogue()); }},
     {"presets", "integrators with samples, for --preset", [] { return entries_of(preset_names()); }},
+    {"denoisers", "filters that remove noise, for --denoiser", [] { return entries_of(denoiser_table()); }},
     {"samplers", "point sets for --sampler", [] { return entries_of(sampler_names()); }},
     {"tones", "tone curves for --tone", [] { return entries_of(tone_curves()); }},
     {"methods", "methods of integration for integrate --method", [] { return entries_of(lab::method_table()); }},

@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 
 namespace montelux {
 
+class ColorFilter;
 class Film;
 struct LayerPlan;
 
@@ -27,14 +29,17 @@ struct DenoiseOptions {
   std::vector<std::filesystem::path> before = {};
   // Of a film: the names of its layers of light, all of which are filtered as well; none: they are not.
   std::vector<std::string> layers = {};
+  std::shared_ptr<const ColorFilter> filter = {};  // as parse_denoiser() has it; null: ours
 };
 
 // For a film with these layers of light.
-DenoiseOptions denoise_options(const std::optional<LayerPlan>& layers, int threads);
+DenoiseOptions denoise_options(const std::optional<LayerPlan>& layers, int threads,
+                               std::shared_ptr<const ColorFilter> filter);
 
 // Estimated mean squared errors before and after, over channels and pixels. The relative ones are divided by the square
 // of the filtered image, plus 0.01.
 struct Denoising {
+  std::string denoiser;  // its name, and the version of one that is not ours
   double noisy_mse = 0, noisy_relative_mse = 0;
   double mse = 0, relative_mse = 0;  // bias included
   double unfiltered = 0;             // of relative_mse, noise of pixels that the filter leaves as it is
@@ -45,7 +50,7 @@ struct Denoising {
 
 // The layers denoised.R, .G, .B and denoised_error.R, .G, .B (root of the estimated mean squared error, bias included),
 // and what is known of them. For each layer NAME of light also denoised_NAME.R, .G, .B, and denoised_error_NAME.R, .G,
-// .B where its standard error is known. Those of a family sum to `denoised`.
+// .B where its standard error is known. Our filter keeps sums: the layers of a family sum to `denoised`.
 struct DenoisedLayers {
   PixelBuffer layers;
   Denoising estimate;
@@ -54,11 +59,25 @@ struct DenoisedLayers {
 // Fails where the film has no halves, or no pixel with a pass in each of them, or where it was stopped.
 Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options = {});
 
-// Judges films, which have halves if the target is the error that is left.
-TargetJudge judge_of(const ErrorTarget& target, int threads);
+// The layers that a judge has made last, so that an image that has been judged is not filtered again.
+class JudgedLayers {
+ public:
+  void keep(const Film& film, DenoisedLayers layers);
+  // Those of this film, which are then gone; nothing if they are of another.
+  std::optional<DenoisedLayers> take(const Film& film);
+
+ private:
+  std::optional<FilmMark> film_;
+  std::optional<DenoisedLayers> layers_;
+};
+
+// Judges films, which have halves if the target is the error that is left. `kept`, if there is one, keeps the layers of
+// the last of these. `filter`: as DenoiseOptions has it.
+TargetJudge judge_of(const ErrorTarget& target, int threads, std::shared_ptr<JudgedLayers> kept = {},
+                     std::shared_ptr<const ColorFilter> filter = {});
 
 // The images of a sequence, whose noise is removed one after the other: the last few before an image help it, as
-// DenoiseOptions::before does. Their samples must be independent.
+// DenoiseOptions::before does. Their samples must be independent. Filters that are not ours take each image alone.
 class SequenceDenoiser {
  public:
   // `motion`: from this image to the one before, as motion_vectors() has it. Fails as denoise() does; the next image

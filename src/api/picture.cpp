@@ -293,7 +293,7 @@ StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& 
   strip.error = strip.result.film.error();
   if (steps.intervals && stride == 1) strip.intervals = pixel_intervals(strip.result.film);
   if (steps.denoise && stride == 1)
-    if (Result<DenoisedLayers> layers = denoise(strip.result.film, denoise_options(steps.layers, 0)))
+    if (Result<DenoisedLayers> layers = denoise(strip.result.film, denoise_options(steps.layers, 0, steps.filter)))
       strip.denoised = *std::move(layers);
   // Each earlier image takes as long as the image itself.
   const double denoising = strip.denoised ? strip.denoised->estimate.seconds : 0;

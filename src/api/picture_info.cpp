@@ -112,6 +112,7 @@ RenderFacts facts_of(const Header& header, double confidence) {
   const std::optional<double> high = header.number("estimatedRelativeMSEHigh");
   if (error && low && high) facts.error = RelativeErrorOfFile{*error, *low, *high, !header.text("unsureError").empty()};
   facts.missing_by_chance = header.number("missingByChance");
+  facts.denoiser = header.text("denoiser");
   facts.denoised_relative_mse = header.number("denoisedRelativeMSE");
   return facts;
 }

@@ -47,6 +47,7 @@ struct RenderFacts {
   std::optional<BiasOfFile> bias;
   std::optional<RelativeErrorOfFile> error;
   std::optional<double> missing_by_chance;  // over the mean, where it may be much
+  std::string denoiser;                     // empty in images of older versions
   std::optional<double> denoised_relative_mse;
 };
 

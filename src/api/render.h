@@ -57,6 +57,7 @@ struct RenderOptions {
   std::optional<std::string> sampler;                         // name of a point set; default: the file's
   std::optional<LayerRequest> layers;                         // of an integrator that has them
   bool denoise = false;                                       // remove noise; adds the layers of both halves
+  std::optional<std::string> denoiser;                        // by this filter, as parse_denoiser() takes it
   std::optional<ShutterTimes> shutter;                        // default: the file's
   bool measure_bias = false;                                  // by paired samples of an unbiased integrator
   std::optional<int> samples_per_pass;                        // default: by the number of samples
@@ -64,7 +65,7 @@ struct RenderOptions {
   std::optional<FilmCheckpoint> checkpoint;
   SavedFilm* resume = nullptr;  // to be continued, with the options that take_options() gives; its film is moved from
 
-  // By request, or for the error that is requested.
+  // By request, with a filter that is requested, or for the error that is requested.
   bool removes_noise() const;
   // The layers, with those that other options need.
   std::optional<LayerRequest> all_layers() const;
@@ -195,6 +196,7 @@ struct PictureSteps {
   bool denoise = false, intervals = false;
   std::size_t earlier_images = 0;  // of a sequence, which help to remove the noise
   std::optional<LayerPlan> layers = {};
+  std::shared_ptr<const ColorFilter> filter = {};  // as DenoiseOptions has it
 };
 // Measured on a strip of noise, which takes some percent of that time itself.
 FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, PictureSteps steps = {});

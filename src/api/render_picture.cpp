@@ -147,11 +147,11 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
                                     RenderObserver& observer, SavedFilm* film) {
   const Stopwatch since_start;
   const AnyIntegrator integrator = plan.chosen.any();
-  const TimeOfImage time(
-      *plan.seconds, before, since_start,
-      seconds_to_finish(
-          settings.image.bounds, plan.files,
-          {plan.denoise, plan.intervals, plan.is_sequence ? SequenceDenoiser::max_earlier : 0, settings.image.layers}));
+  const TimeOfImage time(*plan.seconds, before, since_start,
+                         seconds_to_finish(settings.image.bounds, plan.files,
+                                           {plan.denoise, plan.intervals,
+                                            plan.is_sequence && !plan.filter ? SequenceDenoiser::max_earlier : 0,
+                                            settings.image.layers, plan.filter}));
   if (settings.begun) {
     time.announce_if_late(1, observer);
     settings.stop = time.limit();
@@ -253,10 +253,15 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
   }
   Rendering rendering =
       rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan, settings.target);
-  if (plan.denoise && !plan.is_sequence)
-    add_denoised(
-        rendering, [&](const Film& of) { return denoise(of, denoise_options(rendering.layers, settings.threads)); },
-        observer);
+  if (plan.denoise && !plan.is_sequence) {
+    const auto without_noise = [&](const Film& of) -> Result<DenoisedLayers> {
+      // A judge does not filter the layers of light.
+      if (plan.judged && !rendering.layers)
+        if (std::optional<DenoisedLayers> judged = plan.judged->take(of)) return *std::move(judged);
+      return denoise(of, denoise_options(rendering.layers, settings.threads, plan.filter));
+    };
+    add_denoised(rendering, without_noise, observer);
+  }
   if (plan.intervals && !add_intervals(rendering))
     observer.announce("the intervals of the pixels are unknown: it takes two independent passes, and light");
   return rendering;

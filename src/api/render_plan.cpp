@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "api/automatic.h"
+#include "api/denoisers.h"
 #include "api/shortcomings.h"
 #include "integrator/direct/settings.h"
 #include "render/target_plan.h"
@@ -255,7 +256,7 @@ Status plan_samples(const RenderOptions& options, int default_samples, RenderPla
 }
 
 bool RenderOptions::removes_noise() const {
-  return denoise || (target && target->error.measure == TargetMeasure::denoised);
+  return denoise || denoiser || (target && target->error.measure == TargetMeasure::denoised);
 }
 
 std::optional<LayerRequest> RenderOptions::all_layers() const {
@@ -278,6 +279,11 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
   if (Status good = plan_integrator(parts, options, *preset, plan); !good) return good.failure();
   plan.motion = options.layers && options.layers->motion;
   plan.denoise = options.removes_noise();
+  if (options.denoiser) {
+    auto filter = parse_denoiser(*options.denoiser);
+    if (!filter) return filter.failure();
+    plan.filter = *std::move(filter);
+  }
   plan.intervals = options.layers && options.layers->intervals;
   const std::optional<LayerRequest> layers_and_halves = options.all_layers();
   plan.settings.image.halves = layers_and_halves && layers_and_halves->halves;
@@ -294,7 +300,8 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
   plan.seconds = options.seconds, plan.budget = options.budget;
   plan.target = options.target, plan.adaptive = options.adaptive.value_or(false);
   if (plan.target) {
-    plan.settings.target = judge_of(plan.target->error, options.threads);
+    plan.judged = std::make_shared<JudgedLayers>();
+    plan.settings.target = judge_of(plan.target->error, options.threads, plan.judged, plan.filter);
     if (!plan.target->unbiased) plan.settings.work = std::make_shared<TargetPlan>(*plan.settings.target);
   }
   return plan;

@@ -31,11 +31,13 @@ struct RenderPlan {
   std::optional<int> samples_per_pass;  // as requested
   bool motion = false;                  // of a sequence: with motion vectors
   bool denoise = false;
-  bool is_sequence = false;  // its noise is removed by the sequence
-  bool intervals = false;    // of the pixels
-  double preparation = 0;    // seconds that the making of the integrator took (pilots, meshes of elements), until an
-                             // image has counted them
-  double ending = 0;         // seconds from the last frame of the image before to its end
+  std::shared_ptr<const ColorFilter> filter;  // that removes the noise; null: ours
+  std::shared_ptr<JudgedLayers> judged;       // what the judge of a target has filtered last
+  bool is_sequence = false;                   // its noise is removed by the sequence
+  bool intervals = false;                     // of the pixels
+  double preparation = 0;  // seconds that the making of the integrator took (pilots, meshes of elements), until an
+                           // image has counted them
+  double ending = 0;       // seconds from the last frame of the image before to its end
 };
 
 // "direct:candidates=4,strategy=ris", in whatever order the settings were given.

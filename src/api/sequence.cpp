@@ -47,7 +47,8 @@ Rendering PictureSequence::render(const SequencePicture& picture, RenderObserver
     // Images that continue from the samples of those before are not independent of them.
     if (continues || remembers()) state_->denoiser.forget();
     const auto denoise = [&](const Film& film) {
-      return state_->denoiser.denoise(film, *rendering.motion, denoise_options(rendering.layers, motion.threads));
+      return state_->denoiser.denoise(film, *rendering.motion,
+                                      denoise_options(rendering.layers, motion.threads, state_->plan.filter));
     };
     add_denoised(rendering, denoise, observer);
   }

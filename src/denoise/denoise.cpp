@@ -4,11 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "denoise/box_mean.h"
+#include "denoise/color_filter.h"
+#include "denoise/filter_error.h"
 #include "denoise/relative_scale.h"
 #include "denoise/small_lamps.h"
 #include "denoise/squared_error.h"
@@ -37,8 +38,7 @@ NoisyImage::NoisyImage(int w, int h) : width(w), height(h), halves{HalfPlanes(pi
 
 namespace {
 
-constexpr int choice_reach = 3;   // pixels over which estimated errors are averaged to choose a filter,
-constexpr int error_reach = 10;   // and to be stated: the estimate at one pixel has the noise of the unfiltered image
+constexpr int choice_reach = 3;   // pixels over which estimated errors are averaged to choose a filter
 constexpr int choice_spread = 5;  // pixels over which the choices are averaged: neighbours share what the estimates say
 // A pixel is beside a lamp if, as near as the filter reaches, an emitter that the camera sees is brighter by this
 // factor.
@@ -47,25 +47,6 @@ constexpr float beside_lamp_contrast = 3;
 constexpr int choice_spread_beside_lamps = 3;
 // The candidates: the filters, the means of the first of them and the image, the image.
 constexpr std::size_t halved = 2;
-
-// Colours of one kind, all light or one layer: unfiltered, and after the filters that each pixel takes.
-struct FilteredColors {
-  std::array<const ColorPlanes*, 2> noisy;  // both halves
-  const ColorPlanes* variance;              // of the mean of both; null: not known
-  std::array<ColorPlanes, 2> filtered;
-  const KeptLight* kept = nullptr;  // to be added to either; null: there is none
-};
-
-// Sums of squared errors over pixels and channels.
-struct ErrorSums {
-  double noisy = 0, noisy_relative = 0;
-  double filtered = 0, filtered_relative = 0;
-  double least = 0;  // what the difference of the halves shows, of `filtered`
-  double measured = 0;
-  double unfiltered = 0;  // of `filtered_relative`, noise of pixels that is left as it is
-  // Of each pixel: what it adds to `filtered_relative` by itself, less the mean around it.
-  std::vector<double> apart;
-};
 
 class Denoiser {
  public:
@@ -84,29 +65,17 @@ class Denoiser {
     find_scale();
     choose();
     DenoisedImage result;
-    FilteredColors all = filtered_colors();
-    result.color = mean_of(all);
-    const RelativeScale scale =
-        whole_ ? scale_by_expectation(*whole_, filtered_image(all, result.color)) : scale_by_colors(result.color);
-    const ErrorSums sums = estimate_error(all, scale, result.error);
+    const FilteredColors all = filtered_colors();
+    const FilterError error(image_, lamps_, &own_);
+    error.state(all, whole_, result);
     const auto changed = std::ranges::count_if(mixture_.unfiltered, [](float share) { return share < 1; });
     result.filtered = double(changed) / double(image_.pixels());
-    const double count = std::max(sums.measured, 1.0);
-    result.noisy_mse = sums.noisy / count, result.noisy_relative_mse = sums.noisy_relative / count;
-    result.mse = std::max(sums.filtered, sums.least) / count, result.relative_mse = sums.filtered_relative / count;
-    result.unfiltered = sums.unfiltered / count;
-    const double squares = std::inner_product(sums.apart.begin(), sums.apart.end(), sums.apart.begin(), 0.0);
-    result.relative_deviation = std::sqrt(squares) / count;
-    add_layers(result);
+    add_layers(error, result);
     return result;
   }
 
  private:
-  // Both halves exist: elsewhere nothing is known of the error, and nothing is filtered.
-  bool has_halves(std::size_t i) const {
-    const float share = image_.halves[0].share[i];
-    return share > 0 && share < 1;
-  }
+  bool has_halves(std::size_t i) const { return image_.has_halves(i); }
   Noisy noisy(std::size_t c, std::size_t i) const {
     const auto& [a, b] = image_.halves;
     return {double(a.color[c][i]), double(b.color[c][i]), double(a.share[i]), double(image_.variance[c][i])};
@@ -211,7 +180,7 @@ class Denoiser {
 
   // The colours of the image, and the share of each pixel itself in them.
   FilteredColors filtered_colors() {
-    FilteredColors all{{&image_.halves[0].color, &image_.halves[1].color}, &image_.variance, {}, nullptr};
+    FilteredColors all = unfiltered(image_);
     if (lamps_) all.kept = &lamps_->kept;
     for (std::size_t half = 0; half < 2; ++half) {
       own_[half] = mixture_.unfiltered;
@@ -231,103 +200,14 @@ class Denoiser {
     return all;
   }
 
-  void add_layers(DenoisedImage& result) const {
+  void add_layers(const FilterError& error, DenoisedImage& result) const {
     const auto filtered = filter_layers(image_, settings_, mixture_, filtered_);
     for (std::size_t k = 0; k < filtered.size(); ++k) {
-      const NoisyLayer& layer = image_.layers[k];
-      const FilteredColors colors{{&layer.halves[0], &layer.halves[1]},
-                                  layer.knows_variance() ? &layer.variance : nullptr,
-                                  filtered[k],
-                                  lamps_ ? &lamps_->kept_layers[k] : nullptr};
-      DenoisedLayer& added = result.layers.emplace_back();
-      added.color = mean_of(colors);
-      if (colors.variance) estimate_error(colors, scale_by_colors(added.color), added.error);
+      FilteredColors colors = unfiltered_layer(image_.layers[k]);
+      colors.filtered = filtered[k];
+      if (lamps_) colors.kept = &lamps_->kept_layers[k];
+      result.layers.push_back(error.layer(colors));
     }
-  }
-
-  // The mean of both halves.
-  ColorPlanes mean_of(const FilteredColors& colors) const {
-    ColorPlanes mean;
-    for (std::size_t c = 0; c < rgb_size; ++c) {
-      mean[c].resize(image_.pixels());
-      for (std::size_t i = 0; i < image_.pixels(); ++i) {
-        const float share = image_.halves[0].share[i];
-        const auto mean_of_halves = [&](const std::array<ColorPlanes, 2>& halves) {
-          return share * halves[0][c][i] + (1 - share) * halves[1][c][i];
-        };
-        mean[c][i] = has_halves(i) ? mean_of_halves(colors.filtered) : (*colors.noisy[0])[c][i];
-        if (colors.kept && has_halves(i)) mean[c][i] += mean_of_halves(colors.kept->halves);
-      }
-    }
-    return mean;
-  }
-
-  // The image after the filter. `mean`: of both halves.
-  FilteredImage filtered_image(const FilteredColors& colors, const ColorPlanes& mean) const {
-    FilteredImage image{colors.filtered, mean, Plane(image_.pixels())};
-    if (colors.kept)
-      for (std::size_t half = 0; half < 2; ++half)
-        for (std::size_t c = 0; c < rgb_size; ++c)
-          for (std::size_t i = 0; i < image_.pixels(); ++i) image.halves[half][c][i] += colors.kept->halves[half][c][i];
-    for (std::size_t i = 0; i < image_.pixels(); ++i) image.own[i] = own_share(i);
-    return image;
-  }
-
-  // The share of the unfiltered pixel in the filtered one. The light of small lamps is not filtered.
-  float own_share(std::size_t i) const {
-    if (lamps_ && lamps_->is_lamp[i]) return 1;
-    const float share = image_.halves[0].share[i];
-    return share * own_[0][i] + (1 - share) * own_[1][i];
-  }
-
-  // The error of each pixel, and sums over all.
-  ErrorSums estimate_error(const FilteredColors& colors, const RelativeScale& scale, ColorPlanes& errors) const {
-    ErrorSums sums;
-    sums.apart.resize(image_.pixels());
-    for (std::size_t c = 0; c < rgb_size; ++c)
-      errors[c] = error_of_channel(colors, c, scale.reciprocals[c], scale.of_covers[c], sums);
-    return sums;
-  }
-
-  Plane error_of_channel(const FilteredColors& colors, std::size_t c, const Plane& scale, const Plane& of_covers,
-                         ErrorSums& sums) const {
-    Plane error(image_.pixels(), 0.0f), spread(image_.pixels(), 0.0f);
-    for (std::size_t i = 0; i < image_.pixels(); ++i) {
-      if (!has_halves(i)) continue;
-      const Noisy n{double((*colors.noisy[0])[c][i]), double((*colors.noisy[1])[c][i]),
-                    double(image_.halves[0].share[i]), double((*colors.variance)[c][i])};
-      const Filtered f{double(colors.filtered[0][c][i]), double(colors.filtered[1][c][i]), double(own_[0][i]),
-                       double(own_[1][i])};
-      const double own = n.share * f.own_first + (1 - n.share) * f.own_second;
-      double squared = squared_error(n, f), noisy = n.variance, difference = f.first - f.second;
-      if (const KeptLight* kept = colors.kept) {
-        const double of_kept = double(kept->variance[c][i]), with_rest = double(kept->covariance[c][i]);
-        squared += of_kept + 2 * own * with_rest, noisy += of_kept + 2 * with_rest;
-        difference += double(kept->halves[0][c][i]) - double(kept->halves[1][c][i]);
-      }
-      const double relative = double(scale[i]);
-      const double noise = n.share * (1 - n.share) * difference * difference;
-      error[i] = float(squared * relative), spread[i] = float(noise * relative);
-      sums.filtered += squared, sums.least += noise;
-      sums.noisy += noisy, sums.noisy_relative += noisy * relative;
-      sums.measured += 1;
-      const double left = square(double(own_share(i)));
-      sums.unfiltered += left * noisy * relative;
-      if (of_covers.empty()) continue;
-      const double lack = std::max(double(of_covers[i]), -noisy * relative);  // no error is below 0
-      error[i] += float(left * lack), sums.noisy_relative += lack, sums.unfiltered += left * lack;
-    }
-    // Means of relative errors: those of bright pixels must not spread to dark ones.
-    const Plane mean = box_mean(error, image_.width, image_.height, error_reach);
-    const Plane noise = box_mean(spread, image_.width, image_.height, error_reach);
-    for (std::size_t i = 0; i < image_.pixels(); ++i) {
-      sums.apart[i] += double(error[i] - mean[i]);
-      // The difference of the halves shows their noise alone: the error is not less.
-      const float relative = std::max({mean[i], noise[i], 0.0f});
-      error[i] = std::sqrt(relative / scale[i]);
-      if (has_halves(i)) sums.filtered_relative += double(relative);
-    }
-    return error;
   }
 
   const NoisyImage& image_;
@@ -345,6 +225,7 @@ class Denoiser {
 }  // namespace
 
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings) {
+  if (settings.filter) return denoise_by(*settings.filter, image, settings);
   const std::optional<SplitImage> split = split_small_lamps(image);
   DenoiseSettings of_rest = settings;
   std::vector<NoisyImage> others;

@@ -10,6 +10,8 @@
 
 namespace montelux {
 
+class ColorFilter;
+
 // One half of the passes: the image that they make, and what it shows. Features are means over samples that hit.
 struct HalfPlanes {
   ColorPlanes color, albedo;
@@ -41,6 +43,8 @@ struct NoisyImage {
 
   NoisyImage(int w, int h);
   std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
+  // The pixel has passes in both halves: elsewhere nothing is known of the error, and nothing is filtered.
+  bool has_halves(std::size_t i) const { return halves[0].share[i] > 0 && halves[0].share[i] < 1; }
 };
 
 struct DenoisedLayer {
@@ -67,6 +71,7 @@ struct DenoiseSettings {
   // Images of other samples, of the same size and with the same layers, whose pixels are averaged too where they are
   // alike: earlier ones of a sequence, reprojected. Pixels without a pass have the share 0.
   std::span<const NoisyImage> others = {};
+  const ColorFilter* filter = nullptr;  // instead of ours
 };
 
 // Filters each half by weights that come from the other half alone: differences of its colours, relative to their
@@ -77,6 +82,9 @@ struct DenoiseSettings {
 // image is, by its weights and its choices: layers that sum to the image sum to the filtered image, up to rounding.
 // Lamps of few pixels that are far brighter than what is around them are not filtered (denoise/small_lamps.h). The same
 // bits for any number of threads. Throws std::runtime_error if it was stopped.
+// Another filter is applied to each half by itself, and to each layer, whose sum is then not that of the filtered
+// layers. The result is the mean of both halves: whatever the filter does, the error of each is known without bias by
+// the other half. It takes no other images; what it throws is passed on.
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
 
 }  // namespace montelux

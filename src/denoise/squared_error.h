@@ -30,4 +30,15 @@ inline double squared_error(const Noisy& noisy, const Filtered& f) {
   return s * first + t * second - s * t * (f.first - f.second) * (f.first - f.second);
 }
 
+// The same of any filter of each half: its value is compared with the other half, which is independent of it. With the
+// halves x and y and their shares s and t, (f - y)^2 - s (x - y)^2 has the expectation of the squared error of f, since
+// s (x - y)^2 has that of the squared error of y; and a rare bright sample counts only linearly. The noise is that of
+// two halves instead of all passes.
+inline double squared_error_by_halves(const Noisy& noisy, double first, double second) {
+  const double s = noisy.share, t = 1 - s, noise = (noisy.first - noisy.second) * (noisy.first - noisy.second);
+  const double of_first = (first - noisy.second) * (first - noisy.second) - s * noise;
+  const double of_second = (second - noisy.first) * (second - noisy.first) - t * noise;
+  return s * of_first + t * of_second - s * t * (first - second) * (first - second);
+}
+
 }  // namespace montelux

@@ -1,7 +1,6 @@
 #include "render/target_judge.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <mutex>
 #include <utility>
@@ -37,19 +36,18 @@ double Looks::spent(int passes) const {
   return rest / double((number + 1) * (number + 2));
 }
 
+FilmMark::FilmMark(const ImageEstimate& image) : passes(image.passes), mean(std::to_array(image.mean)) {}
+
 class FilteredFilm {
  public:
   // What the filter has left of this film; nothing if another one was filtered last.
   std::optional<FilteredError> of(const ImageEstimate& image) const {
     const std::scoped_lock lock(mutex_);
-    // No two films have the same mean to the last digit.
-    if (!left_ || passes_ != image.passes || !std::ranges::equal(mean_, image.mean)) return std::nullopt;
-    return left_;
+    return mark_ == FilmMark(image) ? left_ : std::nullopt;
   }
   void set(const ImageEstimate& image, double noisy, const FilteredError& left) {
     const std::scoped_lock lock(mutex_);
-    passes_ = image.passes, noisy_ = noisy, left_ = left;
-    std::ranges::copy(image.mean, mean_.begin());
+    mark_ = FilmMark(image), noisy_ = noisy, left_ = left;
   }
   // What it would leave of this relative mean squared error.
   std::optional<FilteredError> scaled_to(double noisy) const {
@@ -61,8 +59,7 @@ class FilteredFilm {
 
  private:
   mutable std::mutex mutex_;
-  int passes_ = 0;
-  std::array<double, rgb_size> mean_{};
+  std::optional<FilmMark> mark_;
   double noisy_ = 0;
   std::optional<FilteredError> left_;
 };

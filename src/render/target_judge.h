@@ -1,5 +1,6 @@
 // Judges films against a requested error.
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,6 +31,14 @@ class Looks {
 
  private:
   int first_, growth_;
+};
+
+// What films differ by: no two have the same mean to the last digit.
+struct FilmMark {
+  explicit FilmMark(const ImageEstimate& image);
+  bool operator==(const FilmMark&) const = default;
+  int passes;
+  std::array<double, rgb_size> mean;
 };
 
 // What the removal of noise leaves of a film's error; nothing if that is not known. `stops`, unless it is empty, is

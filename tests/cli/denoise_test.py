@@ -2,13 +2,7 @@
 import json
 import unittest
 
-from program import ROOT, SCENE, ProgramTest, read_pfm
-
-
-def relative_error(picture, reference):
-    """Mean of the squared errors over the squares of the reference, plus 0.01."""
-    pairs = [pair for rows in zip(picture[2], reference[2]) for pair in zip(*rows)]
-    return sum((a - b) ** 2 / (b ** 2 + 0.01) for a, b in pairs) / len(pairs)
+from program import ROOT, SCENE, ProgramTest, read_pfm, relative_error
 
 
 class DenoiseTest(ProgramTest):

@@ -32,9 +32,10 @@ class ProgramTest(unittest.TestCase):
         return subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, text=True,
                                 **{"env": ENVIRONMENT, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
-    def run_program(self, *arguments, status=0):
-        """Runs the program to its end and checks its exit status, which may be one of several; returns what it said."""
-        result = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, env=ENVIRONMENT, text=True,
+    def run_program(self, *arguments, status=0, **variables):
+        """Runs the program to its end and checks its exit status, which may be one of several; returns what it said.
+        `variables` are added to the environment."""
+        result = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, env=ENVIRONMENT | variables, text=True,
                                 capture_output=True, check=False)
         good = status if isinstance(status, tuple) else (status,)
         self.assertIn(result.returncode, good, f"{arguments}\n{result.stdout}{result.stderr}")
@@ -58,3 +59,9 @@ def read_pfm(path):
     values = array.array("f", data)
     rows = [values[y * 3 * width:(y + 1) * 3 * width] for y in range(height)]
     return width, height, rows[::-1]
+
+
+def relative_error(picture, reference):
+    """Mean of the squared errors over the squares of the reference, plus 0.01."""
+    pairs = [pair for rows in zip(picture[2], reference[2]) for pair in zip(*rows)]
+    return sum((a - b) ** 2 / (b ** 2 + 0.01) for a, b in pairs) / len(pairs)

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -141,6 +142,20 @@ TEST(DenoisedTarget, filters_a_film_once) {
   EXPECT_EQ(calls, 1);
   copy.judge(b, true);
   EXPECT_EQ(calls, 2);
+}
+
+TEST(DenoisedTarget, keeps_the_layers_that_were_judged_last) {
+  const auto kept = std::make_shared<JudgedLayers>();
+  const TargetJudge judge = judge_of(target, 1, kept);
+  const Film a = render_to(judge_of(of_noise, 1), 3, {}, 8).film, b = render_to(judge_of(of_noise, 1), 4, {}, 8).film;
+  judge.judge(a, true), judge.judge(b, true);
+  EXPECT_FALSE(kept->take(a));
+  const std::optional<DenoisedLayers> layers = kept->take(b);
+  ASSERT_TRUE(layers);
+  const Result<DenoisedLayers> filtered = denoise(b, {1});
+  EXPECT_EQ(layers->layers.channels, filtered->layers.channels);
+  EXPECT_EQ(layers->layers.values, filtered->layers.values);
+  EXPECT_FALSE(kept->take(b));
 }
 
 TEST(DenoisedTarget, does_not_try_a_filter_that_would_have_to_remove_nearly_all) {

@@ -1,0 +1,50 @@
+// What a filter leaves of the error of an image, by both halves of its passes.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "denoise/denoise.h"
+#include "denoise/relative_scale.h"
+#include "denoise/small_lamps.h"
+
+namespace montelux {
+
+// Colours of one kind, all light or one layer: unfiltered, and after the filter of each half.
+struct FilteredColors {
+  std::array<const ColorPlanes*, 2> noisy;  // both halves
+  const ColorPlanes* variance;              // of the mean of both; null: not known
+  std::array<ColorPlanes, 2> filtered = {};
+  const KeptLight* kept = nullptr;  // to be added to either; null: there is none
+};
+FilteredColors unfiltered(const NoisyImage& image);
+FilteredColors unfiltered_layer(const NoisyLayer& layer);
+
+class FilterError {
+ public:
+  // All of these must outlive this. `lamps`: what the image is the rest of; null: it is whole. `own`: the share of each
+  // pixel itself in its filtered halves, by weights that do not depend on what they weigh; null: not known. The error
+  // is then measured by what the other half shows, whatever the filter does, with more noise.
+  FilterError(const NoisyImage& image, const SplitImage* lamps, const std::array<Plane, 2>* own)
+      : image_(image), lamps_(lamps), own_(own) {}
+
+  // The colours and errors of the image. `whole`: the whole image before the filter; null: not known.
+  void state(const FilteredColors& all, const FilmPlanes* whole, DenoisedImage& result) const;
+  DenoisedLayer layer(const FilteredColors& colors) const;
+
+ private:
+  struct Sums;
+  ColorPlanes mean_of(const FilteredColors& colors) const;
+  FilteredImage filtered_image(const FilteredColors& colors, const ColorPlanes& mean) const;
+  float own_of_filter(std::size_t i) const;
+  float own_share(std::size_t i) const;
+  double squared_error_at(const FilteredColors& colors, std::size_t c, std::size_t i) const;
+  Sums estimate(const FilteredColors& colors, const RelativeScale& scale, ColorPlanes& errors) const;
+  Plane error_of_channel(const FilteredColors& colors, std::size_t c, const Plane& scale, const Plane& of_covers,
+                         Sums& sums) const;
+
+  const NoisyImage& image_;
+  const SplitImage* lamps_;
+  const std::array<Plane, 2>* own_;
+};
+
+}  // namespace montelux
