@@ -35,6 +35,7 @@ constexpr const char* examples = R"(Examples:
   montelux render room.pbrt --spp 64 --layers light-groups --denoise     the light of each group, too
   montelux render walk.pbrt --frames 1:9 --layers halves,motion -o walk.####.exr
   montelux denoise walk.0002.exr --before walk.0001.exr -o clean.0002.exr
+  montelux denoise room.exr --denoiser oidn -o clean.exr           by Open Image Denoise, if it is installed
 
 The .exr keeps all layers of the image, and adds denoised.R, .G, .B and denoised_error.R, .G, .B: the root of the
 estimated mean squared error that is left, bias included. R, G, B stay the unbiased estimate. Layers of light become

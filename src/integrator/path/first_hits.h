@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 #include "scene/surface.h"
 #include "transport/light_met.h"
+#include "transport/next_vertex.h"
 #include "transport/numbers.h"
 #include "transport/path_state.h"
 
@@ -36,8 +37,8 @@ class FirstHits {
   // For loops that keep nothing of a path but its state: `on` are the paths that continue beyond a vertex. Returns
   // those that stay in their lanes.
   Mask<F> set_aside(const PathState<F>& state, Mask<F> on);
-  // The lanes in which the path loop adds light that paths meet: not what lamp rays have shown of it.
-  Mask<F> counts_light(const PathState<F>& state, Mask<F> on) const;
+  // The lanes in which the path loop adds the light of emitters that paths meet: not what lamp rays have shown of it.
+  Mask<F> counts_emitter(const PathState<F>& state, Mask<F> on) const;
   std::uint64_t rays() const { return rays_; }
 
  private:
@@ -159,30 +160,69 @@ struct NumbersOfPart {
   RandomStream<F> stream(const Uint<F>& dimension) const { return all.stream(dimension); }
 };
 
+// What follow_segment() reports the light of emitters to that a camera ray meets. Calls sink(on, radiance, light).
+template <class F, class Sink>
+struct EmittersOnRay {
+  static constexpr bool sees_media = false;
+  const Scene& scene;
+  const Ray<F>& ray;
+  Sink sink;
+  void emitter(const EmitterOnRay<F>& met, Mask<F> on) {
+    const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
+    const LightHit<F> light = emission_met<F>(scene.lights, {ray.o, nowhere}, met.v.x, ray.d, on);
+    sink(on, met.left * light.radiance, met.v.x.light - Uint<F>(1u));
+  }
+  void sky(const SkyOnRay<F>&, Mask<F>) {}
+  void medium(const Spectrum<F>&, Mask<F>) {}
+};
+
+// The light of emitters on camera rays that have met `hit` where `found`: through interfaces, less what media absorb
+// and scatter. Calls sink(on, radiance, light). Adds the rays that are traced to `traced`.
+template <class F, class Rays, class Numbers, class Sink>
+void show_emitters(const Scene& scene, const Rays& rays, const Ray<F>& ray, const Hit<F>& hit, Mask<F> found,
+                   const Numbers& numbers, std::uint64_t& traced, Sink sink) {
+  if (scene.materials.has_interfaces()) {
+    const Media<F> media = media_of<F>(scene.media, Uint<F>(scene.camera_medium));
+    EmittersOnRay<F, Sink> emitters{scene, ray, sink};
+    RayProgress<F> way{{ray, hit, media}, gray(F(1.0f)), F(1.0f), Uint<F>(0u)};
+    follow_segment<F>(scene, rays, way, {found, Mask<F>(false)}, numbers.stream(Uint<F>(path_dimension::own)), traced,
+                      emitters);
+    return;
+  }
+  const Mask<F> met = meets_emitter<F>(scene, hit, found);
+  if (!any(met)) return;
+  const SurfaceHit<F> x = surface_at<F>(scene.geometry, ray, hit, ray.time, met);
+  const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
+  const LightHit<F> light = emission_met<F>(scene.lights, {ray.o, nowhere}, x, ray.d, met);
+  if (scene.camera_medium == empty_space) return sink(met, light.radiance, x.light - Uint<F>(1u));
+  const Media<F> media = media_of<F>(scene.media, Uint<F>(scene.camera_medium));
+  sink(met, media.left(hit.t) * light.radiance, x.light - Uint<F>(1u));
+}
+
 // The light of emitters that the pixels of these samples show directly, by rays of points of their own in a part of
 // their filters, beyond which they show none: all points of a pixel in a pass are one (0,2)-set. Calls sink(on,
-// contribution, light).
+// contribution, light). Adds the rays beyond interfaces to `traced`.
 template <class F, class Rays, class Sink>
 void show_lamps(const Scene& scene, const Rays& rays, const TilePass& pass, std::uint32_t count,
-                const PathSite<F>& site, const FilterPart<F>& part, Mask<F> on, Sink sink) {
+                const PathSite<F>& site, const FilterPart<F>& part, Mask<F> on, std::uint64_t& traced, Sink sink) {
   using U = Uint<F>;
   PointSet points = pass.points;
   points.kind = PointSetKind::padded_sobol, points.seed = mix_bits(points.seed ^ 0x1f83d9abu);
   points.samples_per_pass *= count;
+  TilePass of_rays = pass;
+  of_rays.points = points;
   const F share_of_ray = part.mass() * F(1.0f / float(count));
   for (std::uint32_t i = 0; i < count; ++i) {
     const PathSite<F> of_ray{site.x, site.y, site.index * U(count) + U(i)};
     const auto numbers = numbers_of<F>(points, of_ray);
     const NumbersOfPart<F, std::remove_cvref_t<decltype(numbers)>> of_part{numbers, part};
-    const PathStart<F> start = start_of_path<F>(scene, {pass.tile, points, pass.shutter}, of_ray, of_part);
+    const PathStart<F> start = start_of_path<F>(scene, of_rays, of_ray, of_part);
     const Ray<F> ray{start.o, start.d, F(ray_infinity), start.time};
     const auto [found, hit] = rays.template trace<F>(ray, on, RayUse::camera);
-    const Mask<F> met = meets_emitter<F>(scene, hit, found);
-    if (!any(met)) continue;
-    const SurfaceHit<F> x = surface_at<F>(scene.geometry, ray, hit, start.time, met);
-    const Vec3<F> nowhere{F(0.0f), F(0.0f), F(0.0f)};
-    const LightHit<F> light = emission_met<F>(scene.lights, {ray.o, nowhere}, x, ray.d, met);
-    sink(met, light.radiance * (start.weight * share_of_ray), x.light - U(1u));
+    const auto add = [&](Mask<F> met, const Spectrum<F>& radiance, const U& light) {
+      sink(met, radiance * (start.weight * share_of_ray), light);
+    };
+    show_emitters<F>(scene, rays, ray, hit, found, numbers, traced, add);
   }
 }
 
@@ -229,7 +269,7 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
               shown_[output] = 1, out[output].features.emission_rays = std::uint32_t(lane(as_many, k));
             });
             Spectrum<F> seen = gray(F(0.0f));
-            show_lamps<F>(scene, rays, pass, lamps.count, site, part, wanted,
+            show_lamps<F>(scene, rays, pass, lamps.count, site, part, wanted, rays_,
                           [&](Mask<F> met, const Spectrum<F>& contribution, [[maybe_unused]] const U& light) {
                             seen += select(met, contribution, gray(F(0.0f)));
                             if constexpr (TakesEarlyLight<Tally>)
@@ -240,6 +280,12 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
                           });
             const F weight = select(state.weight != F(0.0f), F(1.0f) / state.weight, F(0.0f));
             state.seen = seen * weight;
+            if (any(in_medium) || scene.materials.has_interfaces()) {
+              // Of paths that meet no surface beyond; the first one writes it again.
+              const Spectrum<F> emission = state.seen * state.weight;
+              for_each_lane(wanted,
+                            [&](int k) { out[lane(state.output, k)].features.emission = to_rgb(lane(emission, k)); });
+            }
             rays_ += std::uint64_t(count(wanted)) * lamps.count;
           }
         }
@@ -273,7 +319,7 @@ Mask<F> FirstHits<F>::refill(PathState<F>& state, Mask<F> on) {
 }
 
 template <class F>
-Mask<F> FirstHits<F>::counts_light(const PathState<F>& state, Mask<F> on) const {
+Mask<F> FirstHits<F>::counts_emitter(const PathState<F>& state, Mask<F> on) const {
   if (shown_.empty()) return on;
   std::uint32_t counts = bits(on);
   for_each_lane(on & (state.depth == Uint<F>(0u)),

@@ -64,8 +64,10 @@ RasterQuad quad_of(const RasterBox& box) {
   return {box.low, Vec2f{box.high.x, box.low.y}, box.high, Vec2f{box.low.x, box.high.y}};
 }
 
-// Whether rays through the quadrilateral, on a grid, meet an emitter: where none does it is behind something else.
+// Whether rays through the quadrilateral, on a grid and over the exposure, meet an emitter: where none does it is
+// behind something else. What is behind interfaces is not known.
 bool shows_emitter(const Scene& scene, const Accel& accel, const RasterQuad& quad) {
+  if (scene.materials.has_interfaces()) return true;
   using F = NativeFloats;
   constexpr std::uint32_t side = 8;
   for (std::uint32_t first = 0; first < side * side; first += std::uint32_t(lanes_of<F>)) {
@@ -79,7 +81,9 @@ bool shows_emitter(const Scene& scene, const Accel& accel, const RasterQuad& qua
     };
     const Vec2<F> raster{between(&Vec2f::x), between(&Vec2f::y)};
     const Ray<F> ray = scene.camera.generate(raster, Vec2<F>{F(0.5f), F(0.5f)}).ray;
-    const auto [found, hit] = accel.trace<F>({ray.o, ray.d, F(ray_infinity), F(0.0f)}, Mask<F>(true), RayUse::camera);
+    const F moment = (to_float((i * Uint<F>(25u)) & Uint<F>(side * side - 1)) + 0.5f) * (1.0f / float(side * side));
+    const F time = scene.moves() ? scene.shutter.time(moment) : F(0.0f);
+    const auto [found, hit] = accel.trace<F>({ray.o, ray.d, F(ray_infinity), time}, Mask<F>(true), RayUse::camera);
     if (any(meets_emitter<F>(scene, hit, found))) return true;
   }
   return false;
@@ -209,8 +213,7 @@ std::vector<RasterBox> boxes_along(const Outline& outline, float part_length) {
 
 std::shared_ptr<const LampPixels> LampPixels::of(const Scene& scene, const Accel& accel, int width, int height) {
   const ThinLens* lens = lens_of(scene.camera);
-  const bool is_simple = !scene.moves() && !scene.pixel_centres && scene.media.empty() &&
-                         !scene.materials.has_interfaces() && lens && width > 0 && height > 0 &&
+  const bool is_simple = !scene.camera.moves() && !scene.pixel_centres && lens && width > 0 && height > 0 &&
                          std::size_t(width) * std::size_t(height) <= max_pixels;
   if (!is_simple) return nullptr;
   std::shared_ptr<LampPixels> lamps(new LampPixels(scene.filter, width, height));

@@ -15,10 +15,9 @@ namespace montelux {
 // those of small emitters, and those at the rims of large ones. A pixel that is missing costs nothing but noise.
 class LampPixels {
  public:
-  // Of a picture of this size. Null where there are none; and where a ray does not show all light that a pixel has of
-  // its first surface, or boxes do not say in which pixels emitters are seen: in scenes that move, with participating
-  // media or surfaces without scattering, for cameras that look along all directions, and for rays through the centres
-  // of pixels.
+  // Of a picture of this size. Null where there are none; and where boxes do not say in which pixels emitters are seen:
+  // for cameras that move or look along all directions, and for rays through the centres of pixels. Rims of large
+  // emitters behind interfaces are not looked for.
   static std::shared_ptr<const LampPixels> of(const Scene& scene, const Accel& accel, int width, int height);
 
   // The lanes whose pixels are among them. Looks at a pixel of a large emitter when it is first wanted. Thread-safe,
@@ -74,17 +73,18 @@ Mask<F> LampPixels::at(const Scene& scene, const Rays& rays, const Uint<F>& x, c
   Mask<F> any_emits(false), all_alike = wanted;
   Uint<F> geometry(0u);
   const Vec2f reach = scene.filter.radius();
-  bool is_first = true;
+  std::uint32_t point = 0;
   for (const float v : {-1.0f, 0.0f, 1.0f})
     for (const float u : {-1.0f, 0.0f, 1.0f}) {
       const Vec2<F> raster{to_float(x) + (0.5f + u * reach.x), to_float(y) + (0.5f + v * reach.y)};
       const Ray<F> ray = scene.camera.generate(raster, Vec2<F>{F(0.5f + 0.499f * v), F(0.5f - 0.499f * u)}).ray;
-      const auto [meets, hit] =
-          rays.template trace<F>({ray.o, ray.d, F(ray_infinity), F(0.0f)}, wanted, RayUse::camera);
+      // Each at a moment of its own of the exposure.
+      const F time = scene.moves() ? scene.shutter.time(F((float(4 * point % 9) + 0.5f) / 9)) : F(0.0f);
+      const auto [meets, hit] = rays.template trace<F>({ray.o, ray.d, F(ray_infinity), time}, wanted, RayUse::camera);
       const Mask<F> emits = meets_emitter<F>(scene, hit, meets);
-      if (is_first) geometry = hit.geometry;
+      if (point == 0) geometry = hit.geometry;
       any_emits = any_emits | emits, all_alike = all_alike & emits & (hit.geometry == geometry);
-      is_first = false;
+      ++point;
     }
   const Mask<F> shows = any_emits & !all_alike;
   const std::uint32_t now = bits(shows);

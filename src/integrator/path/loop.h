@@ -99,6 +99,16 @@ MONTELUX_INLINE Mask<F> counts_light(const Source& source, const PathState<F>& p
     return on;
 }
 
+// The same for the light of emitters alone.
+template <class F, class Source>
+MONTELUX_INLINE Mask<F> counts_emitter(const Source& source, const PathState<F>& path, Mask<F> on) {
+  const Mask<F> counts = counts_light(source, path, on);
+  if constexpr (requires { source.counts_emitter(path, counts); })
+    return source.counts_emitter(path, counts);
+  else
+    return counts;
+}
+
 // The scattering events of a path at most: `all`, unless the source of the paths ends some of them earlier.
 template <class F, class Source>
 MONTELUX_INLINE Uint<F> deepest_of(const Source& source, const PathState<F>& path, const Uint<F>& all) {
@@ -130,7 +140,7 @@ struct PathLight {
   Tally& tally;
 
   MONTELUX_INLINE void emitter(const EmitterOnRay<F>& met, Mask<F> on) {
-    on = counts_light(source, path, on);
+    on = counts_emitter(source, path, on);
     if (!any(on)) return;
     const LightHit<F> light = emission_met<F>(lights, {path.p, path.n}, met.v.x, path.d, on);
     gather_light(path, on, met.left * light.radiance * share(light), tally, [&] {

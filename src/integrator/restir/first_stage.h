@@ -76,7 +76,7 @@ class FirstStage {
     const FirstHits<F>& source;
 
     void emitter(const EmitterOnRay<F>& met, M on) {
-      on = source.counts_light(path, on);
+      on = source.counts_emitter(path, on);
       const SurfaceHit<F>& x = met.v.x;
       const U number = select(on, x.light - U(1u), U(0u));
       add(met.left, lights.template hit_radiance<F>(number, x.point.ng, x.point.uv, path.d, on), on);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "film/film.h"
 #include "render_scenes.h"
@@ -59,14 +61,16 @@ RenderResult rendered(const TestScene& scene, const std::string& way, int passes
   return render(chosen.any(), scene.settings(PointSetKind::blue_noise, plan, 5, threads), silent);
 }
 
-// How many standard errors the mean of a channel is off, at most, if the image is `factor` times as bright.
-double deviation(const Film& film, double factor = 1) {
+// How many standard errors the mean of a channel is off `truth`, at most, if the image is `factor` times as bright.
+template <class Truth>
+double deviation_from(Truth truth, const Film& film, double factor = 1) {
   const ImageEstimate image = film.image();
   double largest = 0;
   for (std::size_t c = 0; c < 3; ++c)
-    largest = std::max(largest, std::abs(factor * image.mean[c] - expected(c)) / (factor * image.standard_error[c]));
+    largest = std::max(largest, std::abs(factor * image.mean[c] - truth(c)) / (factor * image.standard_error[c]));
   return largest;
 }
+double deviation(const Film& film, double factor = 1) { return deviation_from(expected, film, factor); }
 
 double mean_square(const Film& film) {
   double sum = 0;
@@ -92,6 +96,76 @@ TEST(LampRays, show_the_light_of_lamps_with_less_noise) {
       // If they stood for all of the rays: an eighth more of them.
       EXPECT_GT(deviation(with, 9.0 / 8), 4.5);
     }
+  }
+}
+
+// A medium that absorbs, of another thickness for each channel, in which `part` of the way to the lamps is.
+constexpr std::array<double, 3> absorption{0.1, 0.3, 0.6};
+constexpr std::string_view medium = R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [0 0 0] )"
+                                    R"("rgb sigma_a" [0.1 0.3 0.6]
+)";
+double expected_through(double part, std::size_t channel) {
+  const auto light_of = [&](double x0, double y0, double w, double h, double light) {
+    constexpr int n = 64;
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const double x = (x0 + w * (i + 0.5) / n) * pixel_side, y = (y0 + h * (j + 0.5) / n) * pixel_side;
+        sum += light * std::exp(-absorption[channel] * part * std::sqrt(x * x + y * y + 9));
+      }
+    return sum / (n * n) * w * h / (width * height);
+  };
+  return light_of(-4.27, 2.61, small_side, small_side, small_light[channel]) +
+         light_of(1.37, -3.81, large_width, large_height, large_light[channel]);
+}
+
+TEST(LampRays, have_what_media_and_interfaces_leave) {
+  const std::string plain = scene_text("");
+  const std::size_t camera = plain.find("Camera"), world = plain.find("AttributeBegin");
+  const std::string around = std::string(medium) + "MediumInterface \"\" \"fog\"\n";
+  const std::string boundary = R"(AttributeBegin
+MediumInterface "" "fog"
+Material "interface"
+Shape "trianglemesh" "point3 P" [-9 -9 1.5 9 -9 1.5 9 9 1.5 -9 9 1.5] "integer indices" [0 1 2 0 2 3]
+AttributeEnd
+)";
+  for (const auto& [text, part] : {std::pair{std::string(plain).insert(camera, around), 1.0},
+                                   std::pair{std::string(plain).insert(world, boundary).insert(camera, medium), 0.5}}) {
+    SCOPED_TRACE(part);
+    const TestScene scene{std::string_view(text)};
+    const auto truth = [through = part](std::size_t c) { return expected_through(through, c); };
+    const Film without = rendered(scene, "path:lamp-rays=0").film, with = rendered(scene, "path").film;
+    EXPECT_LT(deviation_from(truth, without), 4.5);
+    EXPECT_LT(deviation_from(truth, with), 4.5);
+    EXPECT_LT(mean_square(with), mean_square(without) / 4);
+    EXPECT_GT(deviation(with), 10);                 // without the medium
+    EXPECT_GT(deviation_from(truth, with, 2), 10);  // if the sample's own ray counted as well
+  }
+}
+
+// The small lamp is behind a black surface until the middle of the exposure.
+TEST(LampRays, see_what_moves_before_them) {
+  const double at_two = pixel_side * 2 / 3, right = (-4.27 + small_side / 2 + 4) * at_two, left = right - 12 * at_two;
+  const std::string screen = fmt::format(R"(AttributeBegin
+ActiveTransform EndTime
+Translate {} 0 0
+ActiveTransform All
+Material "diffuse" "rgb reflectance" [0 0 0]
+Shape "trianglemesh" "point3 P" [{} {} 2 {} {} 2 {} {} 2 {} {} 2] "integer indices" [0 1 2 0 2 3]
+AttributeEnd
+)",
+                                         -8 * at_two, left, at_two, right, at_two, right, 4 * at_two, left, 4 * at_two);
+  const TestScene scene{std::string_view(scene_text("") + screen)};
+  const auto truth = [](std::size_t c) {
+    return expected(c) - 0.5 * small_light[c] * small_side * small_side / (width * height);
+  };
+  for (const std::string name : {"path", "restir-pt"}) {
+    SCOPED_TRACE(name);
+    const Film without = rendered(scene, name + ":lamp-rays=0").film, with = rendered(scene, name).film;
+    EXPECT_LT(deviation_from(truth, without), 4.5);
+    EXPECT_LT(deviation_from(truth, with), 4.5);
+    EXPECT_LT(mean_square(with), mean_square(without) / 4);
+    EXPECT_GT(deviation(with), 4.5);  // if all of the exposure showed it
   }
 }
 
