@@ -137,8 +137,11 @@ class Oidn final : public ColorFilter {
   std::string version_;
 };
 
-constexpr std::array system_files{"libOpenImageDenoise.so.2", "libOpenImageDenoise.so.1", "libOpenImageDenoise.so.0",
-                                  "libOpenImageDenoise.so"};
+std::vector<std::string> system_files() {
+  std::vector<std::string> files;
+  for (const char* version : {".2", ".1", ".0", ""}) files.push_back(fmt::format("libOpenImageDenoise.so{}", version));
+  return files;
+}
 
 // The library of this file, and null with a message if it cannot be loaded.
 std::pair<void*, std::string> open_library(const std::string& file) {
@@ -166,7 +169,8 @@ Result<std::shared_ptr<const ColorFilter>> load_oidn(const std::string& file) {
     return filter_of(library, file);
   }
   std::string others;
-  for (const std::string name : system_files) {
+  const std::vector<std::string> names = system_files();
+  for (const std::string& name : names) {
     const auto [library, error] = open_library(name);
     if (library) return filter_of(library, name);
     // Anything but a missing file is worth a word.
@@ -174,7 +178,7 @@ Result<std::shared_ptr<const ColorFilter>> load_oidn(const std::string& file) {
   }
   return Failure{
       fmt::format("Open Image Denoise is not installed: there is no {}{}; its file may be stated by oidn:library=FILE",
-                  fmt::join(system_files, ", "), others)};
+                  fmt::join(names, ", "), others)};
 }
 
 }  // namespace montelux
