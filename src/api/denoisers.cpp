@@ -9,12 +9,12 @@ namespace montelux {
 namespace {
 
 struct OidnSettings {
-  std::string library;
+  std::string file;
 };
 
 Fields<OidnSettings> oidn_fields() {
   Fields<OidnSettings> fields;
-  fields.words("library", &OidnSettings::library, "file of the library; default: libOpenImageDenoise.so of the system");
+  fields.words("library", &OidnSettings::file, "file of the library; default: libOpenImageDenoise.so of the system");
   return fields;
 }
 
@@ -61,7 +61,7 @@ Result<std::shared_ptr<const ColorFilter>> parse_denoiser(std::string_view text)
   const Result<NamedDenoiser> named = denoiser_named(text);
   if (!named) return named.failure();
   if (named->is_ours) return std::shared_ptr<const ColorFilter>();
-  return load_oidn(named->oidn.library);
+  return load_oidn(named->oidn.file);
 }
 
 }  // namespace montelux
