@@ -188,7 +188,6 @@ TargetJudge judge_of(const ErrorTarget& target, int threads, std::shared_ptr<Jud
 Result<DenoisedLayers> SequenceDenoiser::denoise(const Film& film, const PixelBuffer& motion,
                                                  const DenoiseOptions& options) {
   std::deque<Earlier> before = std::exchange(earlier_, {});
-  if (options.filter) return montelux::denoise(film, options);
   if (Status good = has_noise_of_halves(film); !good) return good.failure();
   Result<MotionPlanes> to_before = motion_of(motion, "");
   if (!to_before) return to_before.failure();

@@ -77,7 +77,7 @@ TargetJudge judge_of(const ErrorTarget& target, int threads, std::shared_ptr<Jud
                      std::shared_ptr<const ColorFilter> filter = {});
 
 // The images of a sequence, whose noise is removed one after the other: the last few before an image help it, as
-// DenoiseOptions::before does. Their samples must be independent. Filters that are not ours take each image alone.
+// DenoiseOptions::before does. Their samples must be independent. By our own filter.
 class SequenceDenoiser {
  public:
   // `motion`: from this image to the one before, as motion_vectors() has it. Fails as denoise() does; the next image

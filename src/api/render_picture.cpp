@@ -147,11 +147,11 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
                                     RenderObserver& observer, SavedFilm* film) {
   const Stopwatch since_start;
   const AnyIntegrator integrator = plan.chosen.any();
-  const TimeOfImage time(*plan.seconds, before, since_start,
-                         seconds_to_finish(settings.image.bounds, plan.files,
-                                           {plan.denoise, plan.intervals,
-                                            plan.is_sequence && !plan.filter ? SequenceDenoiser::max_earlier : 0,
-                                            settings.image.layers, plan.filter}));
+  const TimeOfImage time(
+      *plan.seconds, before, since_start,
+      seconds_to_finish(settings.image.bounds, plan.files,
+                        {plan.denoise, plan.intervals, plan.denoises_sequence() ? SequenceDenoiser::max_earlier : 0,
+                         settings.image.layers, plan.filter}));
   if (settings.begun) {
     time.announce_if_late(1, observer);
     settings.stop = time.limit();
@@ -253,7 +253,7 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
   }
   Rendering rendering =
       rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan, settings.target);
-  if (plan.denoise && !plan.is_sequence) {
+  if (plan.denoise && !plan.denoises_sequence()) {
     const auto without_noise = [&](const Film& of) -> Result<DenoisedLayers> {
       // A judge does not filter the layers of light.
       if (plan.judged && !rendering.layers)

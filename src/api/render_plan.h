@@ -33,11 +33,15 @@ struct RenderPlan {
   bool denoise = false;
   std::shared_ptr<const ColorFilter> filter;  // that removes the noise; null: ours
   std::shared_ptr<JudgedLayers> judged;       // what the judge of a target has filtered last
-  bool is_sequence = false;                   // its noise is removed by the sequence
-  bool intervals = false;                     // of the pixels
+  bool is_sequence = false;
+  bool intervals = false;  // of the pixels
   double preparation = 0;  // seconds that the making of the integrator took (pilots, meshes of elements), until an
                            // image has counted them
   double ending = 0;       // seconds from the last frame of the image before to its end
+
+  // The images before help to remove the noise, which is left to the sequence. Filters that are not ours take each
+  // image alone.
+  bool denoises_sequence() const { return denoise && is_sequence && !filter; }
 };
 
 // "direct:candidates=4,strategy=ris", in whatever order the settings were given.
@@ -57,7 +61,7 @@ SavedFilm description_of(const LoadedScene::Parts& parts, const RenderPlan& plan
 
 // Renders one image: that of the plan, with settings whose seed, shutter, memories and film may differ. `film`, if
 // there is one, receives the length of the passes and the time of the preparation before it is saved.
-// Unless it is one of a sequence, its noise is removed if the plan says so.
+// Its noise is removed if the plan says so, unless the sequence does that.
 Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, RenderSettings settings,
                          RenderObserver& observer, SavedFilm* film = nullptr);
 

@@ -42,13 +42,13 @@ Rendering PictureSequence::render(const SequencePicture& picture, RenderObserver
   Rendering rendering = render_picture(parts, state_->plan, std::move(settings), observer);
   for (const auto& memory : state_->memories)
     if (memory) rendering.history_bytes += memory->bytes();
-  if (state_->plan.motion || state_->plan.denoise) rendering.motion = motion_vectors(parts.scene, *parts.accel, motion);
-  if (state_->plan.denoise) {
+  if (state_->plan.motion || state_->plan.denoises_sequence())
+    rendering.motion = motion_vectors(parts.scene, *parts.accel, motion);
+  if (state_->plan.denoises_sequence()) {
     // Images that continue from the samples of those before are not independent of them.
     if (continues || remembers()) state_->denoiser.forget();
     const auto denoise = [&](const Film& film) {
-      return state_->denoiser.denoise(film, *rendering.motion,
-                                      denoise_options(rendering.layers, motion.threads, state_->plan.filter));
+      return state_->denoiser.denoise(film, *rendering.motion, denoise_options(rendering.layers, motion.threads, {}));
     };
     add_denoised(rendering, denoise, observer);
   }
