@@ -38,15 +38,18 @@ NoisyImage::NoisyImage(int w, int h) : width(w), height(h), halves{HalfPlanes(pi
 
 namespace {
 
-constexpr int choice_reach = 3;   // pixels over which estimated errors are averaged to choose a filter
-constexpr int choice_spread = 5;  // pixels over which the choices are averaged: neighbours share what the estimates say
+constexpr int choice_reach = 4;  // pixels over which estimated errors are averaged to choose a filter
+constexpr int choice_spread =
+    10;  // pixels over which the choices are averaged: neighbours share what the estimates say
+// What neighbours choose counts in full up to this multiple of the least error at the pixel.
+constexpr float choice_tolerance = 3;
 // A pixel is beside a lamp if, as near as the filter reaches, an emitter that the camera sees is brighter by this
 // factor.
 constexpr int beside_lamp_reach = filter_reach + 1;
 constexpr float beside_lamp_contrast = 3;
 constexpr int choice_spread_beside_lamps = 3;
-// The candidates: the filters, the means of the first of them and the image, the image.
-constexpr std::size_t halved = 2;
+// The candidates: the filters, the mean of the first of them and the image, the image.
+constexpr std::size_t halved = 1;
 
 class Denoiser {
  public:
@@ -146,28 +149,44 @@ class Denoiser {
   // over fewer pixels beside lamps, where a small part of the wrong filter may do more harm.
   void choose() {
     const int w = image_.width, h = image_.height;
-    std::vector<std::uint8_t> choice(image_.pixels(), 0);
+    std::vector<std::uint8_t> choice(image_.pixels(), std::uint8_t(unfiltered_));
+    std::vector<Plane> errors;  // of each candidate, around each pixel
     Plane least(image_.pixels(), std::numeric_limits<float>::infinity()), error(image_.pixels());
     for (std::size_t k = 0; k <= unfiltered_; ++k) {
       for (std::size_t i = 0; i < error.size(); ++i) error[i] = has_halves(i) ? error_of(k, i) : 0;
-      const Plane mean = box_mean(error, w, h, choice_reach);
+      errors.push_back(box_mean(error, w, h, choice_reach));
       for (std::size_t i = 0; i < error.size(); ++i)
-        if (mean[i] < least[i]) least[i] = mean[i], choice[i] = std::uint8_t(k);
+        if (has_halves(i) && errors[k][i] < least[i]) least[i] = errors[k][i], choice[i] = std::uint8_t(k);
     }
     mixture_.filters.assign(filters_, Plane(image_.pixels()));
     mixture_.unfiltered.resize(image_.pixels());
+    Plane own_choice(image_.pixels(), 1.0f);
     for (std::size_t k = 0; k <= unfiltered_; ++k) {
       Plane chosen(image_.pixels());
-      for (std::size_t i = 0; i < chosen.size(); ++i)
-        chosen[i] = (has_halves(i) ? choice[i] : unfiltered_) == k ? 1.0f : 0.0f;
+      for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = choice[i] == k ? 1.0f : 0.0f;
       Plane share = box_mean(chosen, w, h, choice_spread);
       if (!beside_lamp_.empty()) {
         const Plane less_spread = box_mean(chosen, w, h, choice_spread_beside_lamps);
         for (std::size_t i = 0; i < share.size(); ++i)
           if (beside_lamp_[i]) share[i] = less_spread[i];
       }
+      for (std::size_t i = 0; i < share.size(); ++i) {
+        if (has_halves(i)) share[i] *= trust_in_neighbors(errors[k][i], least[i]);
+        own_choice[i] -= share[i];
+      }
       add_choice(k, share);
     }
+    for (std::size_t k = 0; k <= unfiltered_; ++k) {
+      Plane share(image_.pixels());
+      for (std::size_t i = 0; i < share.size(); ++i) share[i] = choice[i] == k ? own_choice[i] : 0;
+      add_choice(k, share);
+    }
+  }
+  // What neighbours choose counts less where it has a larger error at the pixel: one rare bright sample has many times
+  // the light of its pixel, so that no part of the unfiltered image may be left there.
+  static float trust_in_neighbors(float error, float least) {
+    const float tolerated = choice_tolerance * std::abs(least);
+    return error <= tolerated ? 1 : tolerated / error;
   }
   void add_choice(std::size_t candidate, const Plane& share) {
     const bool is_mean = candidate >= filters_ && candidate != unfiltered_;

@@ -1,4 +1,4 @@
-// The filters: weighted sums over the pixels around each pixel.
+// Filters: weighted sums over the pixels around each pixel.
 #pragma once
 #include <array>
 #include <vector>
@@ -7,17 +7,23 @@
 
 namespace montelux {
 
-// How a filter weighs differences: the greater, the smoother.
-inline constexpr std::array<float, 3> color_scales{0.5f, 0.3f, 1.0f};  // in standard deviations
-inline constexpr int filter_count = int(color_scales.size());
+// The filters: weighted means, the first of them sharper, and then values of linear functions that are fitted to the
+// pixels around (denoise/local_fit.h), which smooth more without blurring gradients. How a filter weighs differences of
+// colours, in standard deviations: the greater, the smoother.
+inline constexpr std::array<float, 2> mean_scales{0.5f, 1.0f}, fit_scales{1.0f, 2.0f};
+inline constexpr std::size_t mean_count = mean_scales.size(), fit_count = fit_scales.size();
+inline constexpr std::size_t filter_count = mean_count + fit_count;
+inline constexpr std::size_t fit_features = 6;
 inline constexpr int filter_reach = 8;  // pixels; weights fall to zero beyond, so that no edge of the window shows
-// Distances of albedos and of normals at which a weight falls to 1/e.
-inline constexpr float albedo_scale = 0.16f, normal_scale = 0.63f;
+// Distances of albedos and of normals at which the weight of a mean falls to 1/e. A fit follows differences of
+// features, and counts this share of their squares.
+inline constexpr float albedo_scale = 0.16f, normal_scale = 0.63f, fit_feature_share = 1.0f / 16;
 
 // One half after one filter.
 struct FilteredHalf {
   ColorPlanes color;
-  Plane own;  // the share of the pixel itself in the sum of the weights
+  Plane own;                  // the share of the pixel itself in the sum of the weights
+  std::vector<Plane> slopes;  // of a fit, if the image has layers: its other coefficients
 };
 
 // Half 0 or 1 of the image after each filter, by weights of the other half: first over all images; then, if there are
