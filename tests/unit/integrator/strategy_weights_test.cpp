@@ -145,7 +145,8 @@ class Recursion {
  private:
   LightEnd<float> end() const {
     const double spread = p_.is_beyond() ? 1 : 1 / p_.squared(0);
-    return {{float(p_.sampled)}, {float(p_.position * p_.direction * spread)}, float(p_.measure()), p_.is_delta_light()};
+    return {
+        {float(p_.sampled)}, {float(p_.position * p_.direction * spread)}, float(p_.measure()), p_.is_delta_light()};
   }
   BothDensities<float> both(int i, bool from_eye) const {
     const float on = p_.to_lens[std::size_t(i)], back = p_.to_light[std::size_t(i)];
