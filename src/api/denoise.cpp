@@ -157,7 +157,7 @@ DenoiseOptions denoise_options(const std::optional<LayerPlan>& layers, int threa
 
 Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options) {
   if (Status good = has_noise_of_halves(film); !good) return good.failure();
-  return denoise_image(noisy_image(film, !options.layers.empty()), options);
+  return denoise_image(noisy_image(film, options.layers), options);
 }
 
 void JudgedLayers::keep(const Film& film, DenoisedLayers layers) {
@@ -191,7 +191,7 @@ Result<DenoisedLayers> SequenceDenoiser::denoise(const Film& film, const PixelBu
   if (Status good = has_noise_of_halves(film); !good) return good.failure();
   Result<MotionPlanes> to_before = motion_of(motion, "");
   if (!to_before) return to_before.failure();
-  NoisyImage image = noisy_image(film, !options.layers.empty());
+  NoisyImage image = noisy_image(film, options.layers);
   std::vector<NoisyImage> others;
   MotionPlanes way = *to_before;
   for (const Earlier& one : before) {

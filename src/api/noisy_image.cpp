@@ -63,7 +63,7 @@ Status read_plane(const PixelBuffer& image, std::string_view channel, Plane& pla
 // both halves.
 Status read_layer(const PixelBuffer& image, const std::string& name, NoisyImage& noisy) {
   const bool knows_error = find_channel(image, name + "_stderr.R").has_value();
-  NoisyLayer& layer = noisy.layers.emplace_back(noisy.pixels(), knows_error);
+  NoisyLayer& layer = noisy.layers.emplace_back(noisy.pixels(), knows_error, *layer_family(name));
   for (std::size_t h = 0; h < 2; ++h)
     if (Status read = read_planes(image, half_layer_names[h].of_layer(name), "RGB", layer.halves[h]); !read)
       return read.failure();
@@ -114,11 +114,11 @@ std::optional<FilmPlanes> whole_of(const PixelBuffer& image, const NoisyImage& n
 
 }  // namespace
 
-NoisyImage noisy_image(const Film& film, bool layers) {
+NoisyImage noisy_image(const Film& film, const std::vector<std::string>& layers) {
   const PixelBounds& b = film.bounds();
   NoisyImage image(b.width(), b.height());
-  if (layers)
-    image.layers.assign(std::size_t(film.layers()->count()), NoisyLayer(image.pixels(), film.layers()->has_spread()));
+  for (const std::string& name : layers)
+    image.layers.emplace_back(image.pixels(), film.layers()->has_spread(), *layer_family(name));
   image.whole.emplace(b).copy(film, b);
   std::size_t i = 0;
   for (int y = b.y0; y < b.y1; ++y)
@@ -154,8 +154,7 @@ std::vector<std::string> layers_with_halves(const PixelBuffer& image) {
   for (const std::string& channel : image.channels) {
     if (!channel.starts_with(begin) || !channel.ends_with(".R")) continue;
     const std::string name = channel.substr(begin.size(), channel.size() - begin.size() - 2);
-    const auto starts = [&](std::string_view family) { return name.starts_with(family); };
-    if (std::ranges::any_of(light_layer_names, starts)) names.push_back(name);
+    if (layer_family(name)) names.push_back(name);
   }
   return names;
 }

@@ -11,8 +11,8 @@ namespace montelux {
 
 class Film;
 
-// Of a film with halves. `layers`: with those of light, which the film has.
-NoisyImage noisy_image(const Film& film, bool layers);
+// Of a film with halves. `layers`: the names of all of its layers of light; empty: without them.
+NoisyImage noisy_image(const Film& film, const std::vector<std::string>& layers);
 
 // The layers of light of an image that has both halves of them.
 std::vector<std::string> layers_with_halves(const PixelBuffer& image);

@@ -178,9 +178,7 @@ std::vector<std::string> half_channels(const std::vector<std::string>& channels)
       if (row.fits_half) names.push_back(channel_name(row, channel));
   for (const std::string& channel : channels) {
     const std::string layer = channel.substr(0, std::min(channel.rfind('.'), channel.size()));
-    const auto starts = [&](std::string_view family) { return layer.starts_with(family); };
-    const bool of_light = std::ranges::any_of(light_layer_names, starts);
-    if (of_light && !layer.ends_with("_stderr")) names.push_back(channel);
+    if (layer_family(layer) && !layer.ends_with("_stderr")) names.push_back(channel);
   }
   return names;
 }

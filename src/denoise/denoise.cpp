@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -26,7 +27,7 @@ HalfPlanes::HalfPlanes(std::size_t pixels) : share(pixels) {
   for (Plane& plane : normal) plane.resize(pixels);
 }
 
-NoisyLayer::NoisyLayer(std::size_t pixels, bool knows_variance) {
+NoisyLayer::NoisyLayer(std::size_t pixels, bool knows_variance, std::string_view family_name) : family(family_name) {
   for (ColorPlanes& half : halves)
     for (Plane& plane : half) plane.resize(pixels);
   for (Plane& plane : variance) plane.resize(knows_variance ? pixels : 0);
@@ -51,6 +52,28 @@ constexpr int choice_spread_beside_lamps = 3;
 // The candidates: the filters, the mean of the first of them and the image, the image.
 constexpr std::size_t halved = 1;
 
+// Layers that are fitted may be below zero, though the image is not. They become zero; the others of their family lose
+// in proportion what they gain, so that the family sums to what it did.
+void keep_layers_above_zero(const std::vector<NoisyLayer>& noisy, std::vector<DenoisedLayer>& layers) {
+  std::map<std::string_view, std::vector<std::size_t>> families;
+  for (std::size_t k = 0; k < noisy.size(); ++k)
+    if (!noisy[k].family.empty()) families[noisy[k].family].push_back(k);
+  for (const auto& [name, members] : families)
+    for (std::size_t c = 0; c < rgb_size; ++c)
+      for (std::size_t i = 0; i < layers.front().color[c].size(); ++i) {
+        float sum = 0, positive = 0;
+        for (std::size_t k : members) {
+          const float value = layers[k].color[c][i];
+          sum += value, positive += std::max(value, 0.0f);
+        }
+        if (sum <= 0 || sum == positive) continue;
+        for (std::size_t k : members) {
+          float& value = layers[k].color[c][i];
+          value = std::max(value, 0.0f) * (sum / positive);
+        }
+      }
+}
+
 class Denoiser {
  public:
   // `lamps`: what the image is the rest of; null: it is whole. `whole`: that of the whole image; null: not known.
@@ -67,6 +90,7 @@ class Denoiser {
   DenoisedImage run() {
     find_scale();
     choose();
+    keep_above_zero();
     DenoisedImage result;
     const FilteredColors all = filtered_colors();
     const FilterError error(image_, lamps_, &own_);
@@ -197,6 +221,42 @@ class Denoiser {
     }
   }
 
+  // Fits may be below zero where there is no light. As much of them as leads below zero is taken from the smoothest
+  // mean instead, unless the filter of the pixels has negative parts. The mixture does it, so that layers still sum to
+  // the image.
+  void keep_above_zero() {
+    for (std::size_t first = 0; first < filters_; first += filter_count)
+      for (std::size_t i = 0; i < image_.pixels(); ++i) {
+        if (!has_halves(i)) continue;
+        const float replaced = fits_below_zero(first, i);
+        for (std::size_t k = first + mean_count; replaced > 0 && k < first + filter_count; ++k) {
+          const float moved = replaced * mixture_.filters[k][i];
+          mixture_.filters[k][i] -= moved, mixture_.filters[first + mean_count - 1][i] += moved;
+        }
+      }
+  }
+  // The share of the fits from number `first` that leads the pixel below zero.
+  float fits_below_zero(std::size_t first, std::size_t i) const {
+    double replaced = 0;
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      const auto value = [&](std::size_t k) {
+        const double share = noisy(c, i).share;
+        const Filtered f = candidate(k, c, i);
+        return share * f.first + (1 - share) * f.second;
+      };
+      const double of_image = value(unfiltered_), smooth = value(first + mean_count - 1);
+      double sum = double(mixture_.unfiltered[i]) * of_image, of_fits = 0, of_mean = 0;
+      for (std::size_t k = 0; k < filters_; ++k) {
+        const double weight = double(mixture_.filters[k][i]), weighted = weight * value(k);
+        sum += weighted;
+        if (k >= first + mean_count && k < first + filter_count) of_fits += weighted, of_mean += weight * smooth;
+      }
+      const double lack = std::min(of_image, 0.0) - sum;
+      if (lack > 0 && of_mean > of_fits) replaced = std::max(replaced, lack / (of_mean - of_fits));
+    }
+    return float(std::min(replaced, 1.0));
+  }
+
   // The colours of the image, and the share of each pixel itself in them.
   FilteredColors filtered_colors() {
     FilteredColors all = unfiltered(image_);
@@ -227,6 +287,7 @@ class Denoiser {
       if (lamps_) colors.kept = &lamps_->kept_layers[k];
       result.layers.push_back(error.layer(colors));
     }
+    keep_layers_above_zero(image_.layers, result.layers);
   }
 
   const NoisyImage& image_;

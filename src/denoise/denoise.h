@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "film/film_planes.h"
@@ -26,8 +28,9 @@ struct HalfPlanes {
 struct NoisyLayer {
   std::array<ColorPlanes, 2> halves;
   ColorPlanes variance;  // of the mean of both; empty planes where it is not known
+  std::string family;    // layers of one family sum to the image; empty: the layer belongs to no family
 
-  NoisyLayer(std::size_t pixels, bool knows_variance);
+  NoisyLayer(std::size_t pixels, bool knows_variance, std::string_view family_name = "");
   bool knows_variance() const { return !variance.front().empty(); }
 };
 
@@ -81,11 +84,11 @@ struct DenoiseSettings {
 // over the image alone), the unfiltered image and a mean of both each pixel takes the one with the least estimated
 // error around it, averaged over what its neighbours take, as far as that is not much worse for the pixel. Layers are
 // filtered as the image is, by its weights and its choices: layers that sum to the image sum to the filtered image, up
-// to rounding. Lamps of few pixels that are far brighter than what is around them are not filtered
-// (denoise/small_lamps.h). The same bits for any number of threads. Throws std::runtime_error if it was stopped.
-// Another filter is applied to each half by itself, and to each layer, whose sum is then not that of the filtered
-// layers. The result is the mean of both halves: whatever the filter does, the error of each is known without bias by
-// the other half. It takes no other images; what it throws is passed on.
+// to rounding, and none of a family is below zero. Lamps of few pixels that are far brighter than what is around them
+// are not filtered (denoise/small_lamps.h). The same bits for any number of threads. Throws std::runtime_error if it
+// was stopped. Another filter is applied to each half by itself, and to each layer, whose sum is then not that of the
+// filtered layers. The result is the mean of both halves: whatever the filter does, the error of each is known without
+// bias by the other half. It takes no other images; what it throws is passed on.
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
 
 }  // namespace montelux

@@ -55,8 +55,7 @@ DenoisedLayer FilterError::layer(const FilteredColors& colors) const {
   return layer;
 }
 
-// The mean of both halves. Fits may be below zero, where no light is: zero is nearer to the truth then, unless the
-// filter of the pixels has negative parts.
+// The mean of both halves.
 ColorPlanes FilterError::mean_of(const FilteredColors& colors) const {
   ColorPlanes mean;
   for (std::size_t c = 0; c < rgb_size; ++c) {
@@ -66,13 +65,8 @@ ColorPlanes FilterError::mean_of(const FilteredColors& colors) const {
       const auto mean_of_halves = [&](const std::array<ColorPlanes, 2>& halves) {
         return share * halves[0][c][i] + (1 - share) * halves[1][c][i];
       };
-      if (!image_.has_halves(i)) {
-        mean[c][i] = (*colors.noisy[0])[c][i];
-        continue;
-      }
-      const float noisy = share * (*colors.noisy[0])[c][i] + (1 - share) * (*colors.noisy[1])[c][i];
-      mean[c][i] = std::max(mean_of_halves(colors.filtered), std::min(noisy, 0.0f));
-      if (colors.kept) mean[c][i] += mean_of_halves(colors.kept->halves);
+      mean[c][i] = image_.has_halves(i) ? mean_of_halves(colors.filtered) : (*colors.noisy[0])[c][i];
+      if (colors.kept && image_.has_halves(i)) mean[c][i] += mean_of_halves(colors.kept->halves);
     }
   }
   return mean;

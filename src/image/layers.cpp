@@ -1,5 +1,7 @@
 #include "image/layers.h"
 
+#include <utility>
+
 namespace montelux {
 
 namespace {
@@ -39,6 +41,15 @@ std::vector<std::string> layer_names(const LayerPlan& plan) {
   names.emplace_back("strategy_rest");
   if (plan.alone) add("alone_", connections), add("alone_merging_", mergings);
   return names;
+}
+
+std::optional<std::string_view> layer_family(std::string_view layer_name) {
+  using Family = std::pair<std::string_view, std::string_view>;
+  for (const auto& [start, family] :
+       {Family{"bounce", "bounces"}, Family{"Combined_", "light groups"}, Family{"technique_", "techniques"},
+        Family{"strategy_", "strategies"}, Family{"merging_", "strategies"}, Family{"alone_", ""}})
+    if (layer_name.starts_with(start)) return family;
+  return std::nullopt;
 }
 
 std::vector<LayerFamily> layer_families(const LayerPlan& plan) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "color/rgb.h"
@@ -65,9 +66,9 @@ struct LayerPlan {
 // "merging_s2_t2" where the last ones are merged, and "strategy_rest"; "alone_s1_t2", "alone_merging_s2_t2". In the
 // order of the layers.
 std::vector<std::string> layer_names(const LayerPlan& plan);
-// How the names of layers of light begin in files.
-inline constexpr std::array<std::string_view, 5> light_layer_names{"bounce", "Combined_", "strategy_", "merging_",
-                                                                   "alone_"};
+// The family of a layer of light by its name in files: the name of a LayerFamily, or "" for a layer that belongs to no
+// partition; nothing for layers that are not of light.
+std::optional<std::string_view> layer_family(std::string_view layer_name);
 
 // The layers of one family, by the name of the family: their numbers from `first`. Every family sums to all light.
 struct LayerFamily {

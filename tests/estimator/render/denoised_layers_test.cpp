@@ -56,7 +56,10 @@ TEST(DenoisedLayers, of_a_picture_sum_to_it_and_have_less_noise) {
   for (std::size_t i = 0; i < whole.values.size(); ++i) {
     const double value = double(whole.values[i]);
     double sum = 0;
-    for (const PixelBuffer& bounce : bounces) sum += double(bounce.values[i]);
+    for (const PixelBuffer& bounce : bounces) {
+      ASSERT_GT(bounce.values[i], -1e-6f);  // rounding
+      sum += double(bounce.values[i]);
+    }
     ASSERT_NEAR(sum, value, 1e-5 * (1 + value));
     ASSERT_NEAR(double(group.values[i]), value, 1e-5 * (1 + value));
   }
