@@ -481,7 +481,7 @@ TEST(DenoisedLayers, of_a_family_have_no_light_below_zero) {
       }
       m.image.variance[c][i] = 0.25f * square(m.image.halves[0].color[c][i] - m.image.halves[1].color[c][i]);
     }
-  const auto least_of = [&](const DenoisedImage& image) {
+  const auto min_of = [&](const DenoisedImage& image) {
     float least = 0;
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < m.image.pixels(); ++i) {
@@ -491,9 +491,9 @@ TEST(DenoisedLayers, of_a_family_have_no_light_below_zero) {
       }
     return least;
   };
-  EXPECT_GT(least_of(denoise(m.image)), -1e-6f);  // rounding
+  EXPECT_GT(min_of(denoise(m.image)), -1e-6f);  // rounding
   for (NoisyLayer& layer : m.image.layers) layer.family.clear();
-  EXPECT_LT(least_of(denoise(m.image)), -1e-3f);
+  EXPECT_LT(min_of(denoise(m.image)), -1e-3f);
 }
 
 // Planted: layers whose halves are exchanged, which weights of the wrong half filter.
