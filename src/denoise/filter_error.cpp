@@ -13,6 +13,16 @@ namespace montelux {
 namespace {
 
 constexpr int error_reach = 10;  // pixels over which errors are averaged: those of one have the noise of the image
+// The same for sums over the image. The greater of two noisy means is too large, and more so in smaller windows.
+constexpr int sum_reach = 40;
+
+// The mean error around each pixel. The difference of the halves shows their noise alone: the error is not less.
+Plane mean_error(const NoisyImage& image, const Plane& error, const Plane& noise, int reach) {
+  Plane mean = box_mean(error, image.width, image.height, reach);
+  const Plane at_least = box_mean(noise, image.width, image.height, reach);
+  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = std::max({mean[i], at_least[i], 0.0f});
+  return mean;
+}
 
 }  // namespace
 
@@ -137,13 +147,12 @@ Plane FilterError::error_of_channel(const FilteredColors& colors, std::size_t c,
   }
   // Means of relative errors: those of bright pixels must not spread to dark ones.
   const Plane mean = box_mean(error, image_.width, image_.height, error_reach);
-  const Plane noise = box_mean(spread, image_.width, image_.height, error_reach);
+  const Plane of_pixels = mean_error(image_, error, spread, error_reach);
+  const Plane of_sums = mean_error(image_, error, spread, sum_reach);
   for (std::size_t i = 0; i < image_.pixels(); ++i) {
     sums.apart[i] += double(error[i] - mean[i]);
-    // The difference of the halves shows their noise alone: the error is not less.
-    const float relative = std::max({mean[i], noise[i], 0.0f});
-    error[i] = std::sqrt(relative / scale[i]);
-    if (image_.has_halves(i)) sums.filtered_relative += double(relative);
+    error[i] = std::sqrt(of_pixels[i] / scale[i]);
+    if (image_.has_halves(i)) sums.filtered_relative += double(of_sums[i]);
   }
   return error;
 }
