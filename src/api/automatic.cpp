@@ -79,7 +79,8 @@ std::string interval_text(const CandidateRatio& r) {
   return fmt::format("{:.2g} ({:.2g} to {:.2g})", r.ratio, r.low, r.high);
 }
 
-std::string reason_text(const std::string& name, const IntegratorChoice& choice) {
+std::string reason_text(const std::string& name, const IntegratorChoice& choice, bool is_filtered) {
+  const char* const after = is_filtered ? " after the removal of noise" : "";
   const auto best = choice.ratios.empty() ? CandidateRatio{} : choice.ratios.front();
   switch (choice.reason) {
     case ChoiceReason::single:
@@ -87,11 +88,12 @@ std::string reason_text(const std::string& name, const IntegratorChoice& choice)
     case ChoiceReason::too_short:
       return "the render is too short for pilots";
     case ChoiceReason::none_better:
-      return fmt::format("no other integrator is surely more efficient; {} is {} times as efficient{}", best.name,
-                         interval_text(best), best.is_unsure ? ", but few bright samples determine its error" : "");
+      return fmt::format("no other integrator is surely more efficient; {} is {} times as efficient{}{}", best.name,
+                         interval_text(best), after,
+                         best.is_unsure ? ", but few bright samples determine its error" : "");
     case ChoiceReason::better:
     case ChoiceReason::more_light:
-      return fmt::format("{} times as efficient as path{}", interval_text(best),
+      return fmt::format("{} times as efficient as path{}{}", interval_text(best), after,
                          choice.reason == ChoiceReason::more_light ? ", whose pilot lacks light that it found" : "");
     case ChoiceReason::interrupted:
       return "interrupted";
@@ -173,8 +175,10 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
                           costs.ray_cost, costs.sample_cost, *making, kept.chosen && kept.chosen->any().splats()});
   }
 
-  ChoiceSettings by{
-      plan.settings.image, double(plan.settings.plan.samples()), {}, double(settings->share), plan.settings.threads};
+  ChoiceSettings by{plan.settings.image, double(plan.settings.plan.samples()), {}};
+  by.share = double(settings->share), by.threads = plan.settings.threads;
+  // The error that counts is that of the request, if there is one.
+  by.is_filtered = plan.target ? plan.target->error.measure == TargetMeasure::denoised : plan.denoise;
   if (plan.target) by.target = plan.target->error, by.samples = plan.max_samples;
   if (plan.seconds && candidates.size() > 1) {
     const double affordable = affordable_samples(plan, observer);
@@ -191,7 +195,7 @@ Status choose_automatically(const LoadedScene::Parts& parts, RenderPlan& plan, R
     plan.settings.plan = {};
     if (Status good = plan_samples(automatic.options, parts.picture.samples, plan); !good) return good;
   }
-  plan.choice = AutomaticChoice{name, reason_text(name, choice), choice.share, {}};
+  plan.choice = AutomaticChoice{name, reason_text(name, choice, by.is_filtered), choice.share, {}};
   for (const CandidateRatio& r : choice.ratios) plan.choice->ratios.push_back({r.name, r.ratio, r.low, r.high});
   plan.preparation += since_start.seconds();
   if (choice.reason != ChoiceReason::interrupted) observer.announce("auto: " + to_text(*plan.choice));

@@ -61,6 +61,18 @@ class Pilots {
   // The average one.
   double window_pixels() const { return pixels() / double(windows_.size()); }
 
+  // Of pixels, or of cells of the grid, whose means are compared.
+  int compared_side(const std::optional<PixelGrid>& grid = {}) const {
+    if (!settings_.is_filtered) return 1;
+    const int stride = grid ? grid->stride : 1;
+    return (filtered_side + stride - 1) / stride;
+  }
+  std::vector<PixelBounds> compared_windows(std::span<const PixelBounds> windows) const {
+    std::vector<PixelBounds> compared;
+    for (const PixelBounds& window : windows) compared.push_back(cells_of(window, compared_side()));
+    return compared;
+  }
+
   // Makes those of the plan that no pilot has needed before, side by side: most of the work is on one thread each.
   void make(const Plan& plan) {
     std::vector<std::size_t> missing;
@@ -78,7 +90,8 @@ class Pilots {
     return some;
   }
 
-  // The pilots of these candidates, the first of which is the first candidate, on these windows.
+  // The pilots of these candidates, the first of which is the first candidate, on these windows, by the means that are
+  // compared.
   std::vector<CandidatePilot> measure(const Plan& plan, std::span<const PixelBounds> windows,
                                       const std::optional<PixelGrid>& grid = {}) {
     std::vector<CandidatePilot> pilots;
@@ -100,6 +113,9 @@ class Pilots {
     next_pass_ += passes_of_pilot;
     if (observer_.stop_requested()) return {};
     learn_costs(pilots, windows);
+    if (const int side = compared_side(grid); side > 1)
+      for (CandidatePilot& pilot : pilots)
+        for (std::size_t w = 0; w < windows.size(); ++w) average_cells(pilot.windows[w], windows[w], side);
     return pilots;
   }
 
@@ -130,13 +146,14 @@ class Pilots {
     constexpr double part = 0.01;  // of the predicted work, for one more pilot
     const std::size_t count = std::min(min_windows, windows_.size());
     const std::vector<PixelBounds> windows = part_of_windows(0, count);
+    const std::vector<PixelBounds> compared = compared_windows(windows);
     const std::vector<double> once(count, 1.0);
     const double max_samples = settings_.samples, error = settings_.target->error;
     for (int samples = 1;; samples *= growth) {
       const std::vector<CandidatePilot> pilots = measure({{0, samples}}, windows);
       if (pilots.empty()) return false;
       const double predicted =
-          samples_for_unit_error(pairs_of(pilots, windows)[0].other, once, *settings_.target, windows_.size()) /
+          samples_for_unit_error(pairs_of(pilots, compared)[0].other, once, *settings_.target, windows_.size()) /
           (error * error);
       settings_.samples = std::isfinite(predicted) ? std::clamp(predicted, 1.0, max_samples) : max_samples;
       if (growth * pilots[0].samples() * pixels_of(windows) > part * settings_.samples * pixels()) return true;
@@ -171,9 +188,10 @@ class Pilots {
       std::vector<CandidatePilot> pilots = measure(long_plan({k}, samples), std::span(&whole, 1), grid);
       if (pilots.empty()) return;
       std::vector<PixelBounds> windows;
+      const PixelBounds compared = cells_of(whole, compared_side(grid));
       for (CandidatePilot& pilot : pilots) {
         windows.clear();
-        pilot.windows = split_pilot(pilot.windows.front(), whole, coarse_window, windows);
+        pilot.windows = split_pilot(pilot.windows.front(), compared, coarse_window, windows);
       }
       pairs_[k] = pairs_of(pilots, windows)[1];
       pairs_[k].is_whole_image = true;
@@ -235,7 +253,7 @@ class Pilots {
     next_window_ += count;
     const std::vector<CandidatePilot> pilots = measure(plan, windows);
     if (pilots.empty()) return;
-    const std::vector<PilotPair> pairs = pairs_of(pilots, windows);
+    const std::vector<PilotPair> pairs = pairs_of(pilots, compared_windows(windows));
     for (std::size_t k = 1; k < pilots.size(); ++k) pairs_[pilots[k].candidate].append(pairs[k]);
   }
 

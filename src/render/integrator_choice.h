@@ -30,10 +30,14 @@ struct ChoiceSettings {
   // Of a pixel, that the render takes with the first candidate: at most, if an error ends it.
   double samples = 1;
   std::optional<ErrorTarget> target;  // the error to be lowered; by default that of the pixels
+  // Noise is removed from the image. A filter averages what differs from pixel to pixel, but leaves noise that
+  // neighbours share: errors are those of means over filtered_side x filtered_side pixels.
+  bool is_filtered = false;
   // The share of the render's work that pilots should take; they take at most max_pilot_share.
   double share = 0.04;
   int threads = 0;  // 0: all of the machine
 };
+inline constexpr int filtered_side = 4;
 inline constexpr double max_pilot_share = 0.05;
 
 enum class ChoiceReason {

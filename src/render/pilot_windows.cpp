@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "film/film.h"
 #include "mc/random.h"
@@ -67,6 +68,28 @@ RayCounts trace_window(const AnyIntegrator& integrator, const ImageSettings& ima
   means.reserve(sums.size());
   for (const PixelPass& sum : sums) means.push_back(mean_of(sum));
   return rays;
+}
+
+PixelBounds cells_of(const PixelBounds& window, int side) {
+  return {0, 0, (window.width() + side - 1) / side, (window.height() + side - 1) / side};
+}
+
+void average_cells(WindowPilot& pilot, const PixelBounds& window, int side) {
+  const PixelBounds cells = cells_of(window, side);
+  const auto cell_of = [&](int x, int y) { return std::size_t(y / side * cells.width() + x / side); };
+  for (std::vector<PixelMean>& pass : pilot.passes) {
+    std::vector<PixelMean> means(std::size_t(cells.area()), PixelMean{});
+    std::vector<int> counts(means.size());
+    for (int y = 0; y < window.height(); ++y)
+      for (int x = 0; x < window.width(); ++x) {
+        ++counts[cell_of(x, y)];
+        for (std::size_t c = 0; c < rgb_size; ++c)
+          means[cell_of(x, y)][c] += pass[std::size_t(y * window.width() + x)][c];
+      }
+    for (std::size_t i = 0; i < means.size(); ++i)
+      for (double& value : means[i]) value /= counts[i];
+    pass = std::move(means);
+  }
 }
 
 std::vector<WindowPilot> split_pilot(const WindowPilot& whole, const PixelBounds& cells, int side,

@@ -39,6 +39,11 @@ PixelGrid coarse_image(const PixelBounds& bounds, double cells);
 RayCounts trace_window(const AnyIntegrator& integrator, const ImageSettings& image, const PixelBounds& window, int pass,
                        int samples, std::vector<PixelMean>& means, const std::optional<PixelGrid>& grid = {});
 
+// The squares of `side` pixels of a window, as the pixels of a smaller one; and its pilot as one of these, each the
+// mean of its pixels.
+PixelBounds cells_of(const PixelBounds& window, int side);
+void average_cells(WindowPilot& pilot, const PixelBounds& window, int side);
+
 // A pilot of a whole image of cells as pilots of its squares of `side` cells, which are added to `windows`.
 std::vector<WindowPilot> split_pilot(const WindowPilot& whole, const PixelBounds& cells, int side,
                                      std::vector<PixelBounds>& windows);
