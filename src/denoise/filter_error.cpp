@@ -13,15 +13,25 @@ namespace montelux {
 namespace {
 
 constexpr int error_reach = 10;  // pixels over which errors are averaged: those of one have the noise of the image
-// The same for sums over the image. The greater of two noisy means is too large, and more so in smaller windows.
-constexpr int sum_reach = 40;
+constexpr int tile_side = 64;    // about that of the tiles over which they are summed for the whole image
 
-// The mean error around each pixel. The difference of the halves shows their noise alone: the error is not less.
-Plane mean_error(const NoisyImage& image, const Plane& error, const Plane& noise, int reach) {
-  Plane mean = box_mean(error, image.width, image.height, reach);
-  const Plane at_least = box_mean(noise, image.width, image.height, reach);
-  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = std::max({mean[i], at_least[i], 0.0f});
-  return mean;
+// The difference of the halves shows their noise alone: the error is not less. The greater of two noisy numbers is too
+// large on average, so sums over large tiles are compared.
+double sum_of_errors(const NoisyImage& image, const Plane& error, const Plane& noise) {
+  const auto tiles_of = [](int pixels) { return std::max((pixels + tile_side / 2) / tile_side, 1); };
+  const int rows = tiles_of(image.height), columns = tiles_of(image.width);
+  double sum = 0;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      double of_tile = 0, at_least = 0;
+      for (int y = image.height * row / rows; y < image.height * (row + 1) / rows; ++y)
+        for (int x = image.width * column / columns; x < image.width * (column + 1) / columns; ++x) {
+          const auto i = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
+          of_tile += double(error[i]), at_least += double(noise[i]);
+        }
+      sum += std::max({of_tile, at_least, 0.0});
+    }
+  return sum;
 }
 
 }  // namespace
@@ -147,12 +157,11 @@ Plane FilterError::error_of_channel(const FilteredColors& colors, std::size_t c,
   }
   // Means of relative errors: those of bright pixels must not spread to dark ones.
   const Plane mean = box_mean(error, image_.width, image_.height, error_reach);
-  const Plane of_pixels = mean_error(image_, error, spread, error_reach);
-  const Plane of_sums = mean_error(image_, error, spread, sum_reach);
+  const Plane noise = box_mean(spread, image_.width, image_.height, error_reach);
+  sums.filtered_relative += sum_of_errors(image_, error, spread);
   for (std::size_t i = 0; i < image_.pixels(); ++i) {
     sums.apart[i] += double(error[i] - mean[i]);
-    error[i] = std::sqrt(of_pixels[i] / scale[i]);
-    if (image_.has_halves(i)) sums.filtered_relative += double(of_sums[i]);
+    error[i] = std::sqrt(std::max({mean[i], noise[i], 0.0f}) / scale[i]);
   }
   return error;
 }

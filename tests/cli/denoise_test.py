@@ -93,19 +93,22 @@ class DenoiseTest(ProgramTest):
         """A scene that moves: the same as from files, and better than each frame alone."""
         scene = ROOT / "scenes" / "clockwork" / "clockwork.gltf"
         small = ["--resolution", "96x54", "--fps", 24]
-        said = self.run_program("render", scene, *small, "--frames", "10:12", "--spp", 8, "--denoise", "--layers", "halves,motion",
-                                "--json", "--quiet", "-o", "f.#.exr", "-o", "f.#.pfm").stdout
-        stated = json.loads(said.splitlines()[-1])["denoised"]["relative_mse"]
+        self.run_program("render", scene, "--frames", "12", "--spp", 1024, "--seed", 77, *small, "-o", "true.pfm")
+        true = self.read("true.0012.pfm")
+        # The stated error of so small an image varies from 0.6 to 1.3 of the true one: means over seeds are compared.
+        errors, stated = [], []
+        for seed in 2, 1, 0:
+            said = self.run_program("render", scene, *small, "--frames", "10:12", "--spp", 8, "--seed", seed, "--denoise",
+                                    "--layers", "halves,motion", "--json", "--quiet", "-o", "f.#.exr", "-o", "f.#.pfm").stdout
+            errors.append(relative_error(self.read("f.12.pfm"), true))
+            stated.append(json.loads(said.splitlines()[-1])["denoised"]["relative_mse"])
         self.run_program("denoise", "f.12.exr", "--before", "f.11.exr", "--before", "f.10.exr", "-o", "two.pfm")
         self.assert_same("f.12.pfm", "two.pfm")
         self.run_program("denoise", "f.12.exr", "-o", "alone.pfm")
         self.assertGreater(relative_error(self.read("two.pfm"), self.read("alone.pfm")), 1e-4)
-        self.run_program("render", scene, "--frames", "12", "--spp", 1024, "--seed", 77, *small, "-o", "true.pfm")
-        true = self.read("true.0012.pfm")
-        error, alone = relative_error(self.read("f.12.pfm"), true), relative_error(self.read("alone.pfm"), true)
-        self.assertLess(error, 0.95 * alone)
-        self.assertGreater(stated, 0.5 * error)
-        self.assertLess(stated, 2 * error)
+        self.assertLess(errors[-1], 0.95 * relative_error(self.read("alone.pfm"), true))
+        self.assertGreater(sum(stated), 0.5 * sum(errors))
+        self.assertLess(sum(stated), 2 * sum(errors))
 
     def test_frames_that_continue_from_the_samples_of_others_are_filtered_alone(self):
         self.render("--frames", "0:1", "--spp", 16, "--integrator", "restir-di", "--denoise", "-o", "f.#.exr", "-o", "f.#.pfm")
