@@ -118,7 +118,7 @@ Result<DenoisedLayers> denoise_image(const NoisyImage& image, const DenoiseOptio
 }
 
 // Without the layers that are added.
-PixelBuffer without_added(const PixelBuffer& image) {
+PixelBuffer without_added(PixelBuffer image) {
   std::vector<std::size_t> kept;
   std::vector<std::string> names;
   for (std::size_t c = 0; c < image.channels.size(); ++c) {
@@ -127,6 +127,7 @@ PixelBuffer without_added(const PixelBuffer& image) {
     if (is_added(layer)) continue;
     kept.push_back(c), names.push_back(name);
   }
+  if (kept.size() == image.channels.size()) return image;
   PixelBuffer rest = make_pixel_buffer(image.width, image.height, std::move(names));
   for (std::size_t i = 0; i < image.pixel_count(); ++i)
     for (std::size_t c = 0; c < kept.size(); ++c)
@@ -222,7 +223,7 @@ Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const Denoi
   const Result<DenoisedLayers> denoised = denoise_image(*noisy, of_file, *others);
   if (!denoised) return Failure{fmt::format("'{}': {}", file.string(), denoised.error())};
   DenoisedFile result{*std::move(image), denoised->estimate};
-  result.image.pixels = without_added(result.image.pixels);
+  result.image.pixels = without_added(std::move(result.image.pixels));
   append_layer(result.image.pixels, "", denoised->layers);
   std::vector<Attribute>& header = result.image.attributes;
   // Others describe how the file was stored.

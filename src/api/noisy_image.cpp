@@ -31,74 +31,140 @@ void copy_layer(const LayerFilm& film, int number, int x, int y, bool usable, st
   }
 }
 
-// The planes of three channels; a failure names the first that is missing.
-Status read_planes(const PixelBuffer& image, std::string_view layer, std::string_view channels,
-                   std::array<Plane, 3>& planes) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::string name = layer.empty() ? std::string(1, channels[c]) : fmt::format("{}.{}", layer, channels[c]);
-    const std::optional<int> channel = find_channel(image, name);
-    if (!channel) return Failure{fmt::format("it has no channel {}", name)};
-    planes[c].resize(image.pixel_count());
-    for (std::size_t i = 0; i < planes[c].size(); ++i) {
-      const float value = image.values[i * image.channels.size() + std::size_t(*channel)];
-      planes[c][i] = value;
+Failure has_no_channel(std::string_view name) { return Failure{fmt::format("it has no channel {}", name)}; }
+
+std::string channel_name(std::string_view layer, char channel) {
+  return layer.empty() ? std::string(1, channel) : fmt::format("{}.{}", layer, channel);
+}
+
+// Copies channels of an image to planes, all in one pass over its pixels.
+class PlaneReader {
+ public:
+  explicit PlaneReader(const PixelBuffer& image) : image_(image) {}
+
+  // Three channels of a layer; a failure names the first that is missing. The planes are filled by read().
+  Status add(std::string_view layer, std::string_view channels, std::array<Plane, 3>& planes) {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (Status added = add(channel_name(layer, channels[c]), planes[c]); !added) return added;
+    return Done{};
+  }
+  Status add(std::string_view channel, Plane& plane) {
+    if (!has(channel)) return has_no_channel(channel);
+    add_existing(channel, plane);
+    return Done{};
+  }
+  // The image has the channel.
+  void add_existing(std::string_view channel, Plane& plane) {
+    plane.resize(image_.pixel_count());
+    planes_.push_back({std::size_t(*find_channel(image_, channel)), &plane});
+  }
+  bool has(std::string_view channel) const { return find_channel(image_, channel).has_value(); }
+  // In parts that fit into caches: the channels of a pixel are side by side.
+  void read() const {
+    constexpr std::size_t part = 512;  // pixels
+    const std::size_t pixels = image_.pixel_count(), channels = image_.channels.size();
+    for (std::size_t first = 0; first < pixels; first += part)
+      for (const auto& [channel, plane] : planes_)
+        for (std::size_t i = first; i < std::min(first + part, pixels); ++i)
+          (*plane)[i] = image_.values[i * channels + channel];
+  }
+
+ private:
+  struct Wanted {
+    std::size_t channel;
+    Plane* plane;
+  };
+  const PixelBuffer& image_;
+  std::vector<Wanted> planes_;
+};
+
+// Numbers that cannot be become 0.
+void keep_usable(Plane& plane) {
+  for (float& value : plane)
+    if (!is_usable(double(value))) value = 0;
+}
+
+// The colours of a layer of an image.
+class LayerColors {
+ public:
+  LayerColors(const PixelBuffer& image, std::string_view layer) : image_(image) {
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      const std::string name = channel_name(layer, "RGB"[c]);
+      const std::optional<int> channel = find_channel(image, name);
+      if (!channel && missing_.empty()) missing_ = name;
+      channels_[c] = std::size_t(channel.value_or(0));
     }
   }
-  return Done{};
-}
-
-// Numbers that cannot be are 0.
-Status read_plane(const PixelBuffer& image, std::string_view channel, Plane& plane) {
-  const std::optional<int> number = find_channel(image, channel);
-  if (!number) return Failure{fmt::format("it has no channel {}", channel)};
-  plane.resize(image.pixel_count());
-  for (std::size_t i = 0; i < plane.size(); ++i) {
-    const float value = image.values[i * image.channels.size() + std::size_t(*number)];
-    plane[i] = is_usable(double(value)) ? value : 0;
+  Status exist() const { return missing_.empty() ? Status(Done{}) : has_no_channel(missing_); }
+  // Numbers that cannot be are 0.
+  float at(std::size_t c, std::size_t i) const {
+    const float value = image_.values[i * image_.channels.size() + channels_[c]];
+    return is_usable(double(value)) ? value : 0;
   }
-  return Done{};
+
+ private:
+  const PixelBuffer& image_;
+  std::array<std::size_t, rgb_size> channels_;
+  std::string missing_;
+};
+
+// Adds both halves of a layer, and the standard errors where the image has them.
+Status add_layer(PlaneReader& reader, const std::string& name, NoisyLayer& layer) {
+  for (std::size_t h = 0; h < 2; ++h)
+    if (Status added = reader.add(half_layer_names[h].of_layer(name), "RGB", layer.halves[h]); !added) return added;
+  if (!layer.knows_variance()) return Done{};
+  return reader.add(name + "_stderr", "RGB", layer.variance);
 }
 
-// Reads both halves, and the standard errors where the image has them. Pixels that are not filtered have the whole as
-// both halves.
-Status read_layer(const PixelBuffer& image, const std::string& name, NoisyImage& noisy) {
-  const bool knows_error = find_channel(image, name + "_stderr.R").has_value();
-  NoisyLayer& layer = noisy.layers.emplace_back(noisy.pixels(), knows_error, *layer_family(name));
-  for (std::size_t h = 0; h < 2; ++h)
-    if (Status read = read_planes(image, half_layer_names[h].of_layer(name), "RGB", layer.halves[h]); !read)
-      return read.failure();
-  ColorPlanes whole;
-  if (Status read = read_planes(image, name, "RGB", whole); !read) return read.failure();
-  if (knows_error)
-    if (Status read = read_planes(image, name + "_stderr", "RGB", layer.variance); !read) return read.failure();
+// Pixels that are not filtered have the whole as both halves. The standard errors become variances.
+void finish_layer(const NoisyImage& noisy, const LayerColors& whole, NoisyLayer& layer) {
   for (std::size_t c = 0; c < rgb_size; ++c)
     for (std::size_t i = 0; i < noisy.pixels(); ++i) {
       for (ColorPlanes& half : layer.halves) {
-        if (noisy.halves[0].share[i] == 1) half[c][i] = whole[c][i];
+        if (noisy.halves[0].share[i] == 1) half[c][i] = whole.at(c, i);
         if (!is_usable(double(half[c][i]))) half[c][i] = 0;
       }
-      if (!knows_error) continue;
+      if (!layer.knows_variance()) continue;
       float& error = layer.variance[c][i];
       error = error >= 0 && is_usable(double(error) * double(error)) ? error * error : 0;
     }
-  return Done{};
 }
 
 // The mean of the channels.
 float gray_of(const ColorPlanes& planes, std::size_t i) { return (planes[0][i] + planes[1][i] + planes[2][i]) / 3; }
 
-// The whole of which both halves are known; nothing if the image has not all of its layers.
-std::optional<FilmPlanes> whole_of(const PixelBuffer& image, const NoisyImage& noisy) {
-  FilmPlanes whole({0, 0, image.width, image.height});
+// Planes of the whole image, each with its channel.
+std::vector<std::pair<std::string_view, Plane*>> channels_of(FilmPlanes& whole) {
   auto& [red, green, blue] = whole.albedo;
   auto& [x, y, z] = whole.normal;
-  for (auto [name, plane] :
-       {std::pair{"A", &whole.coverage}, std::pair{"samples", &whole.samples}, std::pair{"id", &whole.object},
-        std::pair{"albedo.R", &red}, std::pair{"albedo.G", &green}, std::pair{"albedo.B", &blue}, std::pair{"N.X", &x},
-        std::pair{"N.Y", &y}, std::pair{"N.Z", &z}})
-    if (!read_plane(image, name, *plane)) return std::nullopt;
+  return {{"A", &whole.coverage},
+          {"samples", &whole.samples},
+          {"id", &whole.object},
+          {"albedo.R", &red},
+          {"albedo.G", &green},
+          {"albedo.B", &blue},
+          {"N.X", &x},
+          {"N.Y", &y},
+          {"N.Z", &z}};
+}
+
+// Adds what is read of the whole image, if the image has all of it.
+void add_whole(PlaneReader& reader, NoisyImage& noisy) {
+  FilmPlanes& whole = noisy.whole.emplace(PixelBounds{0, 0, noisy.width, noisy.height});
+  const auto channels = channels_of(whole);
+  if (!std::ranges::all_of(channels, [&](const auto& channel) { return reader.has(channel.first); }))
+    return noisy.whole.reset();
+  for (const auto& [name, plane] : channels) reader.add_existing(name, *plane);
+  if (reader.has(emission_rays_layer)) reader.add_existing(emission_rays_layer, whole.emission_rays);
+}
+
+void finish_whole(const PlaneReader& reader, NoisyImage& noisy) {
+  if (!noisy.whole) return;
+  FilmPlanes& whole = *noisy.whole;
+  for (const auto& [name, plane] : channels_of(whole)) keep_usable(*plane);
+  keep_usable(whole.emission_rays);
   // Images of older versions have one for each sample.
-  if (!read_plane(image, emission_rays_layer, whole.emission_rays)) whole.emission_rays = whole.samples;
+  if (!reader.has(emission_rays_layer)) whole.emission_rays = whole.samples;
   whole.variance = noisy.variance;
   const auto& [a, b] = noisy.halves;
   for (std::size_t i = 0; i < noisy.pixels(); ++i) {
@@ -109,7 +175,45 @@ std::optional<FilmPlanes> whole_of(const PixelBuffer& image, const NoisyImage& n
     whole.emission[i] = a.share[i] * gray_of(a.emission, i) + b.share[i] * gray_of(b.emission, i);
     whole.first_half[i] = gray_of(a.color, i), whole.second_half[i] = gray_of(b.color, i);
   }
-  return whole;
+}
+
+// Adds the layers of a half; images of older versions have no emission.
+Status add_half(PlaneReader& reader, const HalfLayerNames& names, HalfPlanes& half) {
+  if (Status added = reader.add(names.color, "RGB", half.color); !added) return added;
+  if (reader.has(channel_name(names.emission, 'R')))
+    if (Status added = reader.add(names.emission, "RGB", half.emission); !added) return added;
+  if (Status added = reader.add(names.albedo, "RGB", half.albedo); !added) return added;
+  if (Status added = reader.add(names.normal, "XYZ", half.normal); !added) return added;
+  return reader.add(names.share, half.share);
+}
+
+// The standard errors become variances. Pixels with numbers that cannot be are left as they are.
+void finish_halves(const LayerColors& color, NoisyImage& noisy) {
+  for (HalfPlanes& half : noisy.halves) keep_usable(half.share);
+  for (std::size_t i = 0; i < noisy.pixels(); ++i) {
+    auto& [a, b] = noisy.halves;
+    bool usable = a.share[i] > 0 && b.share[i] > 0 && std::abs(a.share[i] + b.share[i] - 1) < 1e-4f;
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      float& error = noisy.variance[c][i];
+      usable &= error >= 0 && is_usable(double(error) * double(error));
+      error *= error;
+      for (const HalfPlanes& half : noisy.halves)
+        usable &= is_usable(double(half.color[c][i])) && is_usable(double(half.emission[c][i])) &&
+                  is_usable(double(half.albedo[c][i])) && is_usable(double(half.normal[c][i]));
+    }
+    if (usable) {
+      b.share[i] = 1 - a.share[i];
+      continue;
+    }
+    for (HalfPlanes& half : noisy.halves) {
+      half.share[i] = 1;
+      for (std::size_t c = 0; c < rgb_size; ++c) {
+        half.color[c][i] = color.at(c, i);
+        half.emission[c][i] = half.albedo[c][i] = half.normal[c][i] = 0;
+      }
+    }
+    for (Plane& plane : noisy.variance) plane[i] = 0;
+  }
 }
 
 }  // namespace
@@ -161,48 +265,26 @@ std::vector<std::string> layers_with_halves(const PixelBuffer& image) {
 
 Result<NoisyImage> noisy_image(const PixelBuffer& image, const std::vector<std::string>& layers) {
   NoisyImage noisy(image.width, image.height);
-  ColorPlanes color;
-  if (Status read = read_planes(image, "", "RGB", color); !read) return read.failure();
-  if (Status read = read_planes(image, "stderr", "RGB", noisy.variance); !read) return read.failure();
-  for (std::size_t h = 0; h < 2; ++h) {
-    const HalfLayerNames& names = half_layer_names[h];
-    HalfPlanes& half = noisy.halves[h];
-    if (Status read = read_planes(image, names.color, "RGB", half.color); !read) return read.failure();
-    // Images of older versions have none.
-    if (find_channel(image, std::string(names.emission) + ".R"))
-      if (Status read = read_planes(image, names.emission, "RGB", half.emission); !read) return read.failure();
-    if (Status read = read_planes(image, names.albedo, "RGB", half.albedo); !read) return read.failure();
-    if (Status read = read_planes(image, names.normal, "XYZ", half.normal); !read) return read.failure();
-    if (Status read = read_plane(image, names.share, half.share); !read) return read.failure();
+  PlaneReader reader(image);
+  const LayerColors color(image, "");
+  if (Status exist = color.exist(); !exist) return exist.failure();
+  if (Status added = reader.add("stderr", "RGB", noisy.variance); !added) return added.failure();
+  for (std::size_t h = 0; h < 2; ++h)
+    if (Status added = add_half(reader, half_layer_names[h], noisy.halves[h]); !added) return added.failure();
+  add_whole(reader, noisy);
+  std::vector<LayerColors> of_layers;
+  for (const std::string& name : layers) {
+    noisy.layers.emplace_back(noisy.pixels(), reader.has(name + "_stderr.R"), *layer_family(name));
+    of_layers.emplace_back(image, name);
   }
-  // Pixels with numbers that cannot be are left as they are.
-  for (std::size_t i = 0; i < noisy.pixels(); ++i) {
-    auto& [a, b] = noisy.halves;
-    bool usable = a.share[i] > 0 && b.share[i] > 0 && std::abs(a.share[i] + b.share[i] - 1) < 1e-4f;
-    for (std::size_t c = 0; c < rgb_size; ++c) {
-      float& error = noisy.variance[c][i];
-      usable &= error >= 0 && is_usable(double(error) * double(error));
-      error *= error;
-      for (const HalfPlanes& half : noisy.halves)
-        usable &= is_usable(double(half.color[c][i])) && is_usable(double(half.emission[c][i])) &&
-                  is_usable(double(half.albedo[c][i])) && is_usable(double(half.normal[c][i]));
-    }
-    if (usable) {
-      b.share[i] = 1 - a.share[i];
-      continue;
-    }
-    for (HalfPlanes& half : noisy.halves) {
-      half.share[i] = 1;
-      for (std::size_t c = 0; c < rgb_size; ++c) {
-        half.color[c][i] = is_usable(double(color[c][i])) ? color[c][i] : 0;
-        half.emission[c][i] = half.albedo[c][i] = half.normal[c][i] = 0;
-      }
-    }
-    for (Plane& plane : noisy.variance) plane[i] = 0;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    if (Status added = add_layer(reader, layers[k], noisy.layers[k]); !added) return added.failure();
+    if (Status exist = of_layers[k].exist(); !exist) return exist.failure();
   }
-  noisy.whole = whole_of(image, noisy);
-  for (const std::string& name : layers)
-    if (Status read = read_layer(image, name, noisy); !read) return read.failure();
+  reader.read();
+  finish_halves(color, noisy);
+  finish_whole(reader, noisy);
+  for (std::size_t k = 0; k < layers.size(); ++k) finish_layer(noisy, of_layers[k], noisy.layers[k]);
   return noisy;
 }
 

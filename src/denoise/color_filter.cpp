@@ -56,7 +56,7 @@ class HalvesFilter {
 
 DenoisedImage denoise_by(const ColorFilter& filter, const NoisyImage& image, const DenoiseSettings& settings) {
   HalvesFilter halves(filter, image, settings);
-  const FilterError error(image, nullptr, nullptr);
+  const FilterError error(image, nullptr, nullptr, settings);
   DenoisedImage result;
   FilteredColors all = unfiltered(image);
   halves.apply(all);

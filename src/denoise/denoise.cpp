@@ -14,6 +14,7 @@
 #include "denoise/relative_scale.h"
 #include "denoise/small_lamps.h"
 #include "denoise/squared_error.h"
+#include "denoise/units.h"
 #include "denoise/weighted_sums.h"
 #include "film/max_around.h"
 #include "film/picture_error.h"
@@ -93,7 +94,7 @@ class Denoiser {
     keep_above_zero();
     DenoisedImage result;
     const FilteredColors all = filtered_colors();
-    const FilterError error(image_, lamps_, &own_);
+    const FilterError error(image_, lamps_, &own_, settings_);
     error.state(all, whole_, result);
     const auto changed = std::ranges::count_if(mixture_.unfiltered, [](float share) { return share < 1; });
     result.filtered = double(changed) / double(image_.pixels());
@@ -133,7 +134,7 @@ class Denoiser {
   // Relative errors are divided by the square of the first filter's result, the mean over 3 x 3 pixels.
   void find_scale() {
     Plane gray(image_.pixels());
-    for (std::size_t i = 0; i < gray.size(); ++i) {
+    for_each_pixel_in_parallel(gray.size(), settings_, [&](std::size_t i) {
       double sum = 0;
       for (std::size_t c = 0; c < rgb_size; ++c) {
         const double s = has_halves(i) ? noisy(c, i).share : 0.5;
@@ -141,7 +142,7 @@ class Denoiser {
         sum += s * f.first + (1 - s) * f.second;
       }
       gray[i] = float(sum / rgb_size);
-    }
+    });
     const Plane mean = box_mean(gray, image_.width, image_.height, 1);
     for (std::size_t i = 0; i < gray.size(); ++i) relative_[i] = reciprocal_square(mean[i]);
     if (whole_) find_scale_beside_lamps();
@@ -173,38 +174,44 @@ class Denoiser {
   // over fewer pixels beside lamps, where a small part of the wrong filter may do more harm.
   void choose() {
     const int w = image_.width, h = image_.height;
-    std::vector<std::uint8_t> choice(image_.pixels(), std::uint8_t(unfiltered_));
-    std::vector<Plane> errors;  // of each candidate, around each pixel
-    Plane least(image_.pixels(), std::numeric_limits<float>::infinity()), error(image_.pixels());
-    for (std::size_t k = 0; k <= unfiltered_; ++k) {
+    const std::size_t candidates = unfiltered_ + 1;
+    std::vector<Plane> errors(candidates), shares(candidates);  // of each candidate, around each pixel
+    for_each_unit(candidates, settings_, [&](std::size_t k) {
+      Plane error(image_.pixels());
       for (std::size_t i = 0; i < error.size(); ++i) error[i] = has_halves(i) ? error_of(k, i) : 0;
-      errors.push_back(box_mean(error, w, h, choice_reach));
-      for (std::size_t i = 0; i < error.size(); ++i)
-        if (has_halves(i) && errors[k][i] < least[i]) least[i] = errors[k][i], choice[i] = std::uint8_t(k);
-    }
+      errors[k] = box_mean(error, w, h, choice_reach);
+    });
+    std::vector<std::uint8_t> choice(image_.pixels(), std::uint8_t(unfiltered_));
+    for_each_pixel_in_parallel(image_.pixels(), settings_, [&](std::size_t i) {
+      float least = std::numeric_limits<float>::infinity();
+      for (std::size_t k = 0; k < candidates && has_halves(i); ++k)
+        if (errors[k][i] < least) least = errors[k][i], choice[i] = std::uint8_t(k);
+    });
+    for_each_unit(candidates, settings_, [&](std::size_t k) { shares[k] = shares_around(choice, k); });
     mixture_.filters.assign(filters_, Plane(image_.pixels()));
     mixture_.unfiltered.resize(image_.pixels());
-    Plane own_choice(image_.pixels(), 1.0f);
-    for (std::size_t k = 0; k <= unfiltered_; ++k) {
-      Plane chosen(image_.pixels());
-      for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = choice[i] == k ? 1.0f : 0.0f;
-      Plane share = box_mean(chosen, w, h, choice_spread);
-      if (!beside_lamp_.empty()) {
-        const Plane less_spread = box_mean(chosen, w, h, choice_spread_beside_lamps);
-        for (std::size_t i = 0; i < share.size(); ++i)
-          if (beside_lamp_[i]) share[i] = less_spread[i];
+    for_each_pixel_in_parallel(image_.pixels(), settings_, [&](std::size_t i) {
+      const float least = errors[choice[i]][i];
+      float own_choice = 1;
+      for (std::size_t k = 0; k < candidates; ++k) {
+        const float share = shares[k][i] * (has_halves(i) ? trust_in_neighbors(errors[k][i], least) : 1.0f);
+        own_choice -= share;
+        add_choice(k, i, share);
       }
-      for (std::size_t i = 0; i < share.size(); ++i) {
-        if (has_halves(i)) share[i] *= trust_in_neighbors(errors[k][i], least[i]);
-        own_choice[i] -= share[i];
-      }
-      add_choice(k, share);
-    }
-    for (std::size_t k = 0; k <= unfiltered_; ++k) {
-      Plane share(image_.pixels());
-      for (std::size_t i = 0; i < share.size(); ++i) share[i] = choice[i] == k ? own_choice[i] : 0;
-      add_choice(k, share);
-    }
+      add_choice(choice[i], i, own_choice);
+    });
+  }
+  // The share of the pixels around each pixel that choose a candidate.
+  Plane shares_around(const std::vector<std::uint8_t>& choice, std::size_t candidate) const {
+    const int w = image_.width, h = image_.height;
+    Plane chosen(image_.pixels());
+    for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = choice[i] == candidate ? 1.0f : 0.0f;
+    Plane share = box_mean(chosen, w, h, choice_spread);
+    if (beside_lamp_.empty()) return share;
+    const Plane less_spread = box_mean(chosen, w, h, choice_spread_beside_lamps);
+    for (std::size_t i = 0; i < share.size(); ++i)
+      if (beside_lamp_[i]) share[i] = less_spread[i];
+    return share;
   }
   // What neighbours choose counts less where it has a larger error at the pixel: one rare bright sample has many times
   // the light of its pixel, so that no part of the unfiltered image may be left there.
@@ -212,13 +219,11 @@ class Denoiser {
     const float tolerated = choice_tolerance * std::abs(least);
     return error <= tolerated ? 1 : tolerated / error;
   }
-  void add_choice(std::size_t candidate, const Plane& share) {
+  void add_choice(std::size_t candidate, std::size_t i, float share) {
     const bool is_mean = candidate >= filters_ && candidate != unfiltered_;
     const float of_each = is_mean ? 0.5f : 1.0f;
-    for (std::size_t i = 0; i < share.size(); ++i) {
-      if (candidate != unfiltered_) mixture_.filters[candidate % filters_][i] += of_each * share[i];
-      if (candidate >= filters_) mixture_.unfiltered[i] += of_each * share[i];
-    }
+    if (candidate != unfiltered_) mixture_.filters[candidate % filters_][i] += of_each * share;
+    if (candidate >= filters_) mixture_.unfiltered[i] += of_each * share;
   }
 
   // Fits may be below zero where there is no light. As much of them as leads below zero is taken from the smoothest
@@ -226,14 +231,14 @@ class Denoiser {
   // the image.
   void keep_above_zero() {
     for (std::size_t first = 0; first < filters_; first += filter_count)
-      for (std::size_t i = 0; i < image_.pixels(); ++i) {
-        if (!has_halves(i)) continue;
+      for_each_pixel_in_parallel(image_.pixels(), settings_, [&](std::size_t i) {
+        if (!has_halves(i)) return;
         const float replaced = fits_below_zero(first, i);
         for (std::size_t k = first + mean_count; replaced > 0 && k < first + filter_count; ++k) {
           const float moved = replaced * mixture_.filters[k][i];
           mixture_.filters[k][i] -= moved, mixture_.filters[first + mean_count - 1][i] += moved;
         }
-      }
+      });
   }
   // The share of the fits from number `first` that leads the pixel below zero.
   float fits_below_zero(std::size_t first, std::size_t i) const {
@@ -261,7 +266,7 @@ class Denoiser {
   FilteredColors filtered_colors() {
     FilteredColors all = unfiltered(image_);
     if (lamps_) all.kept = &lamps_->kept;
-    for (std::size_t half = 0; half < 2; ++half) {
+    for_each_unit(2, settings_, [&](std::size_t half) {
       own_[half] = mixture_.unfiltered;
       for (std::size_t c = 0; c < rgb_size; ++c) {
         Plane& sum = all.filtered[half][c] = (*all.noisy[half])[c];
@@ -275,7 +280,7 @@ class Denoiser {
           for (std::size_t c = 0; c < rgb_size; ++c) all.filtered[half][c][i] += weight[i] * filtered.color[c][i];
         }
       }
-    }
+    });
     return all;
   }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "denoise/box_mean.h"
 #include "denoise/squared_error.h"
+#include "denoise/units.h"
 #include "math/functions.h"
 
 namespace montelux {
@@ -45,6 +47,14 @@ struct FilterError::Sums {
   double unfiltered = 0;  // of `filtered_relative`, noise of pixels that is left as it is
   // Of each pixel: what it adds to `filtered_relative` by itself, less the mean around it.
   std::vector<double> apart;
+
+  explicit Sums(std::size_t pixels) : apart(pixels) {}
+  void add(const Sums& other) {
+    noisy += other.noisy, noisy_relative += other.noisy_relative;
+    filtered += other.filtered, filtered_relative += other.filtered_relative;
+    least += other.least, measured += other.measured, unfiltered += other.unfiltered;
+    for (std::size_t i = 0; i < apart.size(); ++i) apart[i] += other.apart[i];
+  }
 };
 
 FilteredColors unfiltered(const NoisyImage& image) {
@@ -57,8 +67,8 @@ FilteredColors unfiltered_layer(const NoisyLayer& layer) {
 
 void FilterError::state(const FilteredColors& all, const FilmPlanes* whole, DenoisedImage& result) const {
   result.color = mean_of(all);
-  const RelativeScale scale =
-      whole ? scale_by_expectation(*whole, filtered_image(all, result.color)) : scale_by_colors(result.color);
+  const RelativeScale scale = whole ? scale_by_expectation(*whole, filtered_image(all, result.color), settings_)
+                                    : scale_by_colors(result.color);
   const Sums sums = estimate(all, scale, result.error);
   const double count = std::max(sums.measured, 1.0);
   result.noisy_mse = sums.noisy / count, result.noisy_relative_mse = sums.noisy_relative / count;
@@ -124,10 +134,12 @@ double FilterError::squared_error_at(const FilteredColors& colors, std::size_t c
 // The error of each pixel, and sums over all.
 FilterError::Sums FilterError::estimate(const FilteredColors& colors, const RelativeScale& scale,
                                         ColorPlanes& errors) const {
-  Sums sums;
-  sums.apart.resize(image_.pixels());
-  for (std::size_t c = 0; c < rgb_size; ++c)
-    errors[c] = error_of_channel(colors, c, scale.reciprocals[c], scale.of_covers[c], sums);
+  std::vector<Sums> of_channels(rgb_size, Sums(image_.pixels()));
+  for_each_unit(rgb_size, settings_, [&](std::size_t c) {
+    errors[c] = error_of_channel(colors, c, scale.reciprocals[c], scale.of_covers[c], of_channels[c]);
+  });
+  Sums sums = std::move(of_channels[0]);
+  for (std::size_t c = 1; c < rgb_size; ++c) sums.add(of_channels[c]);
   return sums;
 }
 

@@ -24,8 +24,9 @@ class FilterError {
   // All of these must outlive this. `lamps`: what the image is the rest of; null: it is whole. `own`: the share of each
   // pixel itself in its filtered halves, by weights that do not depend on what they weigh; null: not known. The error
   // is then measured by what the other half shows, whatever the filter does, with more noise.
-  FilterError(const NoisyImage& image, const SplitImage* lamps, const std::array<Plane, 2>* own)
-      : image_(image), lamps_(lamps), own_(own) {}
+  FilterError(const NoisyImage& image, const SplitImage* lamps, const std::array<Plane, 2>* own,
+              const DenoiseSettings& settings)
+      : image_(image), lamps_(lamps), own_(own), settings_(settings) {}
 
   // The colours and errors of the image. `whole`: the whole image before the filter; null: not known.
   void state(const FilteredColors& all, const FilmPlanes* whole, DenoisedImage& result) const;
@@ -45,6 +46,7 @@ class FilterError {
   const NoisyImage& image_;
   const SplitImage* lamps_;
   const std::array<Plane, 2>* own_;
+  const DenoiseSettings& settings_;
 };
 
 }  // namespace montelux

@@ -1,6 +1,9 @@
 #include "denoise/padded_image.h"
 
+#include <algorithm>
+
 #include "denoise/box_mean.h"
+#include "denoise/units.h"
 #include "film/max_around.h"
 #include "math/functions.h"
 #include "math/lanes.h"
@@ -14,10 +17,16 @@ PaddedPlane::PaddedPlane(const Plane& plane, int width, int height, bool mirror)
     const int period = 2 * n, k = ((i % period) + period) % period;
     return k < n ? k : period - 1 - k;
   };
-  const int rows = mirror ? height + padding : height, columns = mirror ? width + padding : width;
-  for (int y = mirror ? -padding : 0; y < rows; ++y)
-    for (int x = mirror ? -padding : 0; x < columns; ++x)
-      values_[index(x, y)] = plane[std::size_t(inside(y, height)) * std::size_t(width) + std::size_t(inside(x, width))];
+  const int margin = mirror ? padding : 0;
+  for (int y = -margin; y < height + margin; ++y) {
+    const auto from = plane.begin() + std::ptrdiff_t(inside(y, height)) * width;
+    const auto to = values_.begin() + std::ptrdiff_t(index(0, y));
+    std::copy_n(from, width, to);
+    for (int x = 0; x < margin; ++x) {
+      to[-1 - x] = from[inside(-1 - x, width)];
+      to[width + x] = from[inside(width + x, width)];
+    }
+  }
 }
 
 namespace {
@@ -72,10 +81,10 @@ Plane mean_albedo(const HalfPlanes& half) {
 
 }  // namespace
 
-PaddedImage padded_image(const NoisyImage& image) {
+PaddedImage padded_image(const NoisyImage& image, const DenoiseSettings& settings) {
   const int w = image.width, h = image.height;
   PaddedImage both;
-  for (std::size_t k = 0; k < 2; ++k) {
+  for_each_unit(2, settings, [&](std::size_t k) {
     const HalfPlanes& half = image.halves[k];
     Plane exists(image.pixels());
     for (std::size_t i = 0; i < exists.size(); ++i) exists[i] = half.share[i] > 0 ? 1.0f : 0.0f;
@@ -86,7 +95,7 @@ PaddedImage padded_image(const NoisyImage& image) {
                PaddedPlane(mean_albedo(half), w, h),
                PaddedPlane(exists, w, h, false),
                PaddedPlane(near_surface(image, half), w, h)};
-  }
+  });
   return both;
 }
 

@@ -44,6 +44,6 @@ struct PaddedHalf {
 };
 using PaddedImage = std::array<PaddedHalf, 2>;
 
-PaddedImage padded_image(const NoisyImage& image);
+PaddedImage padded_image(const NoisyImage& image, const DenoiseSettings& settings);
 
 }  // namespace montelux

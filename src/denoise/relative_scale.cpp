@@ -1,7 +1,9 @@
 #include "denoise/relative_scale.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "denoise/units.h"
 #include "film/partial_cover.h"
 #include "film/reciprocals.h"
 
@@ -33,18 +35,24 @@ FilmPlanes planes_of(const FilmPlanes& noisy, const FilteredImage& filtered) {
 
 }  // namespace
 
-RelativeScale scale_by_expectation(const FilmPlanes& noisy, const FilteredImage& filtered) {
+RelativeScale scale_by_expectation(const FilmPlanes& noisy, const FilteredImage& filtered,
+                                   const DenoiseSettings& settings) {
   const FilmPlanes planes = planes_of(noisy, filtered);
-  const Reciprocals of_filtered(planes), of_noisy(noisy);
-  const PartialCovers covers(noisy);
+  std::optional<Reciprocals> of_filtered, of_noisy;
+  std::optional<PartialCovers> covers;
+  for_each_unit(3, settings, [&](std::size_t unit) {
+    if (unit == 0) of_filtered.emplace(planes);
+    if (unit == 1) of_noisy.emplace(noisy);
+    if (unit == 2) covers.emplace(noisy);
+  });
   RelativeScale scale = scale_by_colors(filtered.mean);
   for (Plane& plane : scale.of_covers) plane.resize(filtered.own.size());
-  for (std::size_t i = 0; i < filtered.own.size(); ++i) {
-    if (noisy.passes[i] < 2) continue;
-    std::array<double, rgb_size> reciprocal = of_filtered.of(i);
-    const std::array<double, rgb_size> before = of_noisy.of(i);
+  for_each_pixel_in_parallel(filtered.own.size(), settings, [&](std::size_t i) {
+    if (noisy.passes[i] < 2) return;
+    std::array<double, rgb_size> reciprocal = of_filtered->of(i);
+    const std::array<double, rgb_size> before = of_noisy->of(i);
     // At the edge of a lamp one half may have no light of it, too.
-    const bool compares_halves = !covers.has(i) && noisy.emission[i] <= 0;
+    const bool compares_halves = !covers->has(i) && noisy.emission[i] <= 0;
     for (std::size_t c = 0; c < rgb_size; ++c) {
       if (compares_halves) {
         const auto& [first, second] = filtered.halves;
@@ -53,10 +61,10 @@ RelativeScale scale_by_expectation(const FilmPlanes& noisy, const FilteredImage&
       }
       reciprocal[c] = std::min(reciprocal[c], std::max(before[c], double(scale.reciprocals[c][i])));
     }
-    const std::array<double, rgb_size> of_covers = covers.correction(i, reciprocal);
+    const std::array<double, rgb_size> of_covers = covers->correction(i, reciprocal);
     for (std::size_t c = 0; c < rgb_size; ++c)
       scale.reciprocals[c][i] = float(reciprocal[c]), scale.of_covers[c][i] = float(of_covers[c]);
-  }
+  });
   return scale;
 }
 

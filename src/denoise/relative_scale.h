@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 
+#include "denoise/denoise.h"
 #include "film/film_planes.h"
 #include "film/picture_error.h"
 #include "math/functions.h"
@@ -28,6 +29,7 @@ struct FilteredImage {
 // Reciprocals that do not share the noise of the errors. A rare bright sample that the filter left in its pixel is
 // known by the pixels around, as in an unfiltered image. One that the filter of a half spread is known by the other
 // half. No pixel is taken to be darker than both images show it. `noisy`: the image before the filter.
-RelativeScale scale_by_expectation(const FilmPlanes& noisy, const FilteredImage& filtered);
+RelativeScale scale_by_expectation(const FilmPlanes& noisy, const FilteredImage& filtered,
+                                   const DenoiseSettings& settings);
 
 }  // namespace montelux

@@ -5,13 +5,12 @@
 #include <cstring>
 #include <memory>
 #include <span>
-#include <stdexcept>
 
 #include "denoise/local_fit.h"
 #include "denoise/padded_image.h"
+#include "denoise/units.h"
 #include "math/functions.h"
 #include "math/lanes.h"
-#include "work/scheduler.h"
 
 namespace montelux {
 
@@ -397,8 +396,8 @@ PaddedLayers padded_layers(const NoisyImage& image, std::size_t half, const Filt
 
 // The image and the others.
 std::vector<PaddedImage> padded_images(const NoisyImage& image, const DenoiseSettings& settings) {
-  std::vector<PaddedImage> images{padded_image(image)};
-  for (const NoisyImage& other : settings.others) images.push_back(padded_image(other));
+  std::vector<PaddedImage> images{padded_image(image, settings)};
+  for (const NoisyImage& other : settings.others) images.push_back(padded_image(other, settings));
   return images;
 }
 
@@ -407,13 +406,10 @@ template <class Function>
 void for_each_tile(const NoisyImage& image, const DenoiseSettings& settings, Function f) {
   const auto across = std::size_t((image.width + tile_width - 1) / tile_width);
   const std::size_t tiles = across * std::size_t((image.height + tile_height - 1) / tile_height);
-  Scheduler scheduler(settings.threads);
-  const auto run = [&](std::size_t unit, int) {
+  for_each_unit(2 * tiles, settings, [&](std::size_t unit) {
     const std::size_t tile = unit / 2;
     f(unit % 2, int(tile % across) * tile_width, int(tile / across) * tile_height);
-  };
-  if (scheduler.run(2 * tiles, run, {0, settings.stop}) < 2 * tiles)
-    throw std::runtime_error("the removal of noise was interrupted");
+  });
 }
 
 }  // namespace
