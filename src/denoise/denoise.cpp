@@ -114,6 +114,7 @@ class Denoiser {
       return {n.first, n.second, 1, 1};
     }
     if (k >= filters_) return mean(candidate(k - filters_, c, i), candidate(unfiltered_, c, i));
+    // Not with the noise that pixels share: its law is one for the image, too coarse to choose by.
     const FilteredHalf &a = filtered_[0][k], &b = filtered_[1][k];
     return {double(a.color[c][i]), double(b.color[c][i]), double(a.own[i]), double(b.own[i])};
   }
@@ -267,7 +268,7 @@ class Denoiser {
     FilteredColors all = unfiltered(image_);
     if (lamps_) all.kept = &lamps_->kept;
     for_each_unit(2, settings_, [&](std::size_t half) {
-      own_[half] = mixture_.unfiltered;
+      own_.weight[half] = own_.covariance[half] = mixture_.unfiltered;
       for (std::size_t c = 0; c < rgb_size; ++c) {
         Plane& sum = all.filtered[half][c] = (*all.noisy[half])[c];
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] *= mixture_.unfiltered[i];
@@ -276,7 +277,8 @@ class Denoiser {
         const FilteredHalf& filtered = filtered_[half][k];
         const Plane& weight = mixture_.filters[k];
         for (std::size_t i = 0; i < weight.size(); ++i) {
-          own_[half][i] += weight[i] * filtered.own[i];
+          own_.weight[half][i] += weight[i] * filtered.own[i];
+          own_.covariance[half][i] += weight[i] * filtered.with_pixel()[i];
           for (std::size_t c = 0; c < rgb_size; ++c) all.filtered[half][c][i] += weight[i] * filtered.color[c][i];
         }
       }
@@ -304,7 +306,7 @@ class Denoiser {
   Plane relative_;
   std::vector<std::uint8_t> beside_lamp_;  // 1: the pixel is; empty: no pixel is known to be
   FilterMixture mixture_;                  // what each pixel takes
-  std::array<Plane, 2> own_;               // the share of the pixel itself in either half
+  OwnShares own_;
 };
 
 }  // namespace

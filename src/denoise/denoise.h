@@ -79,16 +79,17 @@ struct DenoiseSettings {
 
 // Filters each half by weights that come from the other half alone: differences of its colours, relative to their
 // variance (Buades, Coll and Morel 2005; Rousselle, Knaus and Zwicker 2012), of its albedos and normals. Because the
-// weights are independent of what they weigh, the error of each filter is estimated without bias (Stein 1981). Two
-// filters are means, two are fits of linear functions (Bitterli et al. 2016). Of them (with other images also those
-// over the image alone), the unfiltered image and a mean of both each pixel takes the one with the least estimated
-// error around it, averaged over what its neighbours take, as far as that is not much worse for the pixel. Layers are
-// filtered as the image is, by its weights and its choices: layers that sum to the image sum to the filtered image, up
-// to rounding, and none of a family is below zero. Lamps of few pixels that are far brighter than what is around them
-// are not filtered (denoise/small_lamps.h). The same bits for any number of threads. Throws std::runtime_error if it
-// was stopped. Another filter is applied to each half by itself, and to each layer, whose sum is then not that of the
-// filtered layers. The result is the mean of both halves: whatever the filter does, the error of each is known without
-// bias by the other half. It takes no other images; what it throws is passed on.
+// weights are independent of what they weigh, the error of each filter is estimated without bias (Stein 1981); what is
+// stated counts noise that pixels share, too (denoise/noise_correlation.h). Two filters are means, two are fits of
+// linear functions (Bitterli et al. 2016). Of them (with other images also those over the image alone), the unfiltered
+// image and a mean of both each pixel takes the one with the least estimated error around it, averaged over what its
+// neighbours take, as far as that is not much worse for the pixel. Layers are filtered as the image is, by its weights
+// and its choices: layers that sum to the image sum to the filtered image, up to rounding, and none of a family is
+// below zero. Lamps of few pixels that are far brighter than what is around them are not filtered
+// (denoise/small_lamps.h). The same bits for any number of threads. Throws std::runtime_error if it was stopped.
+// Another filter is applied to each half by itself, and to each layer, whose sum is then not that of the filtered
+// layers. The result is the mean of both halves: whatever the filter does, the error of each is known without bias by
+// the other half. It takes no other images; what it throws is passed on.
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
 
 }  // namespace montelux

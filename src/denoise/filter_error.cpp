@@ -117,7 +117,7 @@ FilteredImage FilterError::filtered_image(const FilteredColors& colors, const Co
 float FilterError::own_of_filter(std::size_t i) const {
   if (!own_) return 0;
   const float share = image_.halves[0].share[i];
-  return share * (*own_)[0][i] + (1 - share) * (*own_)[1][i];
+  return share * own_->weight[0][i] + (1 - share) * own_->weight[1][i];
 }
 
 // The same of all light. That of small lamps is not filtered.
@@ -128,7 +128,7 @@ double FilterError::squared_error_at(const FilteredColors& colors, std::size_t c
                     double(image_.halves[0].share[i]), double((*colors.variance)[c][i])};
   const double first = double(colors.filtered[0][c][i]), second = double(colors.filtered[1][c][i]);
   if (!own_) return squared_error_by_halves(noisy, first, second);
-  return squared_error(noisy, {first, second, double((*own_)[0][i]), double((*own_)[1][i])});
+  return squared_error(noisy, {first, second, double(own_->covariance[0][i]), double(own_->covariance[1][i])});
 }
 
 // The error of each pixel, and sums over all.

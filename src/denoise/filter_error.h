@@ -19,13 +19,18 @@ struct FilteredColors {
 FilteredColors unfiltered(const NoisyImage& image);
 FilteredColors unfiltered_layer(const NoisyLayer& layer);
 
+// What a filter takes of each pixel itself, by half of the image.
+struct OwnShares {
+  std::array<Plane, 2> weight;      // of the pixel in the filtered one
+  std::array<Plane, 2> covariance;  // of the filtered pixel and the noise of the pixel, in variances of the pixel
+};
+
 class FilterError {
  public:
   // All of these must outlive this. `lamps`: what the image is the rest of; null: it is whole. `own`: the share of each
   // pixel itself in its filtered halves, by weights that do not depend on what they weigh; null: not known. The error
   // is then measured by what the other half shows, whatever the filter does, with more noise.
-  FilterError(const NoisyImage& image, const SplitImage* lamps, const std::array<Plane, 2>* own,
-              const DenoiseSettings& settings)
+  FilterError(const NoisyImage& image, const SplitImage* lamps, const OwnShares* own, const DenoiseSettings& settings)
       : image_(image), lamps_(lamps), own_(own), settings_(settings) {}
 
   // The colours and errors of the image. `whole`: the whole image before the filter; null: not known.
@@ -45,7 +50,7 @@ class FilterError {
 
   const NoisyImage& image_;
   const SplitImage* lamps_;
-  const std::array<Plane, 2>* own_;
+  const OwnShares* own_;
   const DenoiseSettings& settings_;
 };
 

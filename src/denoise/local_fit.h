@@ -13,7 +13,7 @@ namespace montelux {
 // features less those of the pixel), the colour is the sum of w_i (c . x_i) y_i for the coefficients c of which (sum of
 // w_i x_i x_i^T) c = (1, 0, ..., 0). So where the features of the weights do not depend on the colours, the weights do
 // not, and sum to 1. The pixel itself, whose weight in the fit is 1, has the weight c_0.
-template <class F, std::size_t features>
+template <class F, std::size_t features, std::size_t channels = rgb_size>
 struct LocalFit {
   static constexpr std::size_t unknowns = features + 1;
   static constexpr std::size_t moments = unknowns * (unknowns + 1) / 2;
@@ -21,7 +21,7 @@ struct LocalFit {
   using Coefficients = std::array<F, unknowns>;
 
   std::array<F, moments> moment;                          // of x x^T, row by row up to the diagonal
-  std::array<std::array<F, unknowns>, rgb_size> product;  // of x and each channel
+  std::array<std::array<F, unknowns>, channels> product;  // of x and each channel
 
   // Slopes are held back by this share of the weight of all pixels: where features hardly differ, they are only noise.
   static constexpr float ridge = 1e-3f;

@@ -3,7 +3,8 @@
 
 namespace montelux {
 
-// A candidate at one pixel and channel: both halves, and the share of the pixel itself in each.
+// A candidate at one pixel and channel: both halves, and for each its covariance with the noise of the pixel, in
+// variances of the pixel. Where pixels have independent noise that is the share of the pixel itself.
 struct Filtered {
   double first, second;
   double own_first, own_second;

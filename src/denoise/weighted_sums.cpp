@@ -7,6 +7,7 @@
 #include <span>
 
 #include "denoise/local_fit.h"
+#include "denoise/noise_correlation.h"
 #include "denoise/padded_image.h"
 #include "denoise/units.h"
 #include "math/functions.h"
@@ -50,8 +51,10 @@ struct PixelPair {
   int x, y, other_x, other_y;
 };
 
+// What is filtered: the colours, and the correlation of each pixel's noise with that of the pixel that is filtered.
+constexpr std::size_t correlation_channel = rgb_size, channel_count = rgb_size + 1;
 // The features of a fit: the mean of the albedo, the normal, and the place on the image.
-using Fit = LocalFit<F, fit_features>;
+using Fit = LocalFit<F, fit_features, channel_count>;
 
 // What a pixel counts in the filters of another one.
 struct FilterWeights {
@@ -81,6 +84,7 @@ class TileFilter {
     for (std::size_t i = 0; i < offsets_.size(); ++i) find_differences(offsets_[i], &differences_[i * tile_size]);
   }
   std::size_t neighbors() const { return offsets_.size(); }
+  const Offset& offset(std::size_t number) const { return offsets_[number]; }
 
   // Calls f(neighbor) for each neighbour of a pack of the tile.
   template <class Function>
@@ -188,9 +192,9 @@ class TileFilter {
   std::vector<float> differences_;  // of the tile, offset by offset
 };
 
-// Sums of the colours of a half over the neighbours of a pack of pixels, for each filter.
+// Sums of the channels of a half over the neighbours of a pack of pixels, for each filter.
 struct PackSums {
-  std::array<std::array<F, rgb_size>, mean_count> color;
+  std::array<std::array<F, channel_count>, mean_count> channels;
   std::array<F, mean_count> weight;
   std::array<Fit, fit_count> fits;
 };
@@ -200,21 +204,33 @@ class ColorSums {
  public:
   ColorSums() : packs_(std::size_t(packs_across) * tile_height, PackSums{}) {}
 
+  // `correlation`: of the noise of the neighbours; null: there is none.
+  void add(const TileFilter& filter, const PaddedColors& colors, const NoiseCorrelation* correlation) {
+    correlations_.clear();
+    for (std::size_t i = 0; correlation && i < filter.neighbors(); ++i)
+      correlations_.push_back(correlation->at(filter.offset(i).x, filter.offset(i).y));
+    if (correlation)
+      add_channels<channel_count>(filter, colors);
+    else
+      add_channels<rgb_size>(filter, colors);
+  }
+
   PackSums& pack(int row, int column) { return packs_[std::size_t(row * packs_across + column / native_lanes)]; }
 
-  void add(const TileFilter& filter, const PaddedColors& colors) {
+  template <std::size_t channels>
+  void add_channels(const TileFilter& filter, const PaddedColors& colors) {
     for (std::vector<F>& weights : fit_weights_) weights.resize(filter.neighbors());
     for (int row = 0; row < tile_height; ++row)
       for (int column = 0; column < tile_width; column += native_lanes) {
         PackSums& sums = pack(row, column);
-        add_means(filter, colors, row, column, sums);
+        add_means<channels>(filter, colors, row, column, sums);
         for (std::size_t k = 0; k < fit_count; ++k) {
           const Place at{filter, row, column};
           // As many sums at a time as there are registers for.
           constexpr std::size_t half = Fit::unknowns - 2;
           add_moments<0, half>(at, fit_weights_[k], sums.fits[k]);
           add_moments<half, Fit::unknowns>(at, fit_weights_[k], sums.fits[k]);
-          add_products(at, fit_weights_[k], colors, sums.fits[k]);
+          add_products<channels>(at, fit_weights_[k], colors, sums.fits[k]);
         }
       }
   }
@@ -224,21 +240,23 @@ class ColorSums {
     const TileFilter& filter;
     int row, column;
   };
-  static F value(const PaddedColors& colors, std::size_t c, const PixelPair& at) {
-    return load(colors[c].at(at.other_x, at.other_y));
+  F value(const PaddedColors& colors, std::size_t c, const PixelPair& at, std::size_t number) const {
+    return c == correlation_channel ? F(correlations_[number]) : load(colors[c].at(at.other_x, at.other_y));
   }
 
+  template <std::size_t channels>
   void add_means(const TileFilter& filter, const PaddedColors& colors, int row, int column, PackSums& sums) {
-    auto color = sums.color;
+    auto means = sums.channels;
     auto weight = sums.weight;
     filter.for_each_neighbor(row, column, [&](const Neighbor& to) {
       for (std::size_t k = 0; k < mean_count; ++k) {
-        for (std::size_t c = 0; c < rgb_size; ++c) color[k][c] += to.weights.means[k] * value(colors, c, to.at);
+        for (std::size_t c = 0; c < channels; ++c)
+          means[k][c] += to.weights.means[k] * value(colors, c, to.at, to.number);
         weight[k] += to.weights.means[k];
       }
       for (std::size_t k = 0; k < fit_count; ++k) fit_weights_[k][to.number] = to.weights.fits[k];
     });
-    sums.color = color, sums.weight = weight;
+    sums.channels = means, sums.weight = weight;
   }
 
   // The rows of the matrix of a fit from `first` to before `end`.
@@ -260,14 +278,15 @@ class ColorSums {
     for (std::size_t m = 0; m < count; ++m) fit.moment[from + m] = sums[m];
   }
 
-  static void add_products(const Place& at, const std::vector<F>& weights, const PaddedColors& colors, Fit& fit) {
+  template <std::size_t channels>
+  void add_products(const Place& at, const std::vector<F>& weights, const PaddedColors& colors, Fit& fit) const {
     auto sums = fit.product;
     for (std::size_t i = 0; i < weights.size(); ++i) {
       const PixelPair pair = at.filter.pair(at.row, at.column, i);
       const Fit::Offsets x = at.filter.feature_offsets(pair, i);
-#pragma GCC unroll 3
-      for (std::size_t c = 0; c < rgb_size; ++c) {
-        const F weighted = weights[i] * value(colors, c, pair);
+#pragma GCC unroll 4
+      for (std::size_t c = 0; c < channels; ++c) {
+        const F weighted = weights[i] * value(colors, c, pair, i);
         sums[c][0] += weighted;
 #pragma GCC unroll 8
         for (std::size_t j = 1; j < Fit::unknowns; ++j) sums[c][j] += weighted * x[j - 1];
@@ -278,6 +297,7 @@ class ColorSums {
 
   std::vector<PackSums> packs_;
   std::array<std::vector<F>, fit_count> fit_weights_;  // of the neighbours of one pack
+  std::vector<float> correlations_;                    // of the neighbours; empty: zero
 };
 
 // What the layers of a half of an image are averaged by: the share of each filter at each pixel times what its weights
@@ -332,19 +352,20 @@ void for_each_pixel(const NoisyImage& image, int x0, int y0, Function f) {
 
 // The filtered pixels of a pack, from its sums.
 struct FilteredPack {
-  std::array<std::array<F, rgb_size>, filter_count> color;
+  std::array<std::array<F, channel_count>, filter_count> channels;
   std::array<F, filter_count> own;
   std::array<Fit::Coefficients, fit_count> coefficients;
 
   explicit FilteredPack(const PackSums& sums) {
     for (std::size_t k = 0; k < mean_count; ++k) {
       own[k] = select(sums.weight[k] > F(0.0f), F(1.0f) / sums.weight[k], F(0.0f));  // its own weight is 1
-      for (std::size_t c = 0; c < rgb_size; ++c) color[k][c] = sums.color[k][c] * own[k];
+      for (std::size_t c = 0; c < channel_count; ++c) channels[k][c] = sums.channels[k][c] * own[k];
     }
     for (std::size_t k = 0; k < fit_count; ++k) {
       coefficients[k] = sums.fits[k].coefficients();
       own[mean_count + k] = coefficients[k][0];
-      for (std::size_t c = 0; c < rgb_size; ++c) color[mean_count + k][c] = sums.fits[k].color(coefficients[k], c);
+      for (std::size_t c = 0; c < channel_count; ++c)
+        channels[mean_count + k][c] = sums.fits[k].color(coefficients[k], c);
     }
   }
 };
@@ -363,8 +384,12 @@ void copy_tile(ColorSums& sums, const NoisyImage& image, const HalfPlanes& sourc
           const float own = lane(filtered.own[k], lane_number);
           const bool has_sum = own > 0;
           for (std::size_t c = 0; c < rgb_size; ++c)
-            out[k].color[c][i] = has_sum ? lane(filtered.color[k][c], lane_number) : source.color[c][i];
-          out[k].own[i] = has_sum && source.share[i] > 0 ? std::min(own, 1.0f) : 1.0f;
+            out[k].color[c][i] = has_sum ? lane(filtered.channels[k][c], lane_number) : source.color[c][i];
+          const bool is_filtered = has_sum && source.share[i] > 0;
+          out[k].own[i] = is_filtered ? std::min(own, 1.0f) : 1.0f;
+          if (!out[k].correlation.empty())
+            out[k].correlation[i] =
+                is_filtered ? std::min(lane(filtered.channels[k][correlation_channel], lane_number), 1.0f) : 1.0f;
           for (std::size_t j = 0; j < out[k].slopes.size(); ++j)
             out[k].slopes[j][i] = lane(filtered.coefficients[k - mean_count][j + 1], lane_number);
         }
@@ -416,12 +441,15 @@ void for_each_tile(const NoisyImage& image, const DenoiseSettings& settings, Fun
 
 FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& settings) {
   const std::vector<PaddedImage> images = padded_images(image, settings);
+  const NoiseCorrelation correlation(image);
+  const bool is_correlated = !correlation.is_zero();
   FilteredHalves filtered;
   for (auto& half : filtered) {
     half.resize(settings.others.empty() ? filter_count : 2 * filter_count);
     for (std::size_t k = 0; k < half.size(); ++k) {
       for (Plane& plane : half[k].color) plane.resize(image.pixels());
       half[k].own.resize(image.pixels());
+      if (is_correlated) half[k].correlation.resize(image.pixels());
       // Layers need them.
       if (k % filter_count >= mean_count && !image.layers.empty())
         half[k].slopes.assign(fit_features, Plane(image.pixels()));
@@ -435,7 +463,8 @@ FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& set
     };
     for (std::size_t i = 0; i < images.size(); ++i) {
       filter.look_at(images[i]);
-      sums->add(filter, images[i][half].color);
+      // Only its own passes share noise with the image.
+      sums->add(filter, images[i][half].color, is_correlated && i == 0 ? &correlation : nullptr);
       if (i == 0 && images.size() > 1) copy(filter_count);
     }
     copy(0);

@@ -23,7 +23,10 @@ inline constexpr float albedo_scale = 0.16f, normal_scale = 0.63f, fit_feature_s
 struct FilteredHalf {
   ColorPlanes color;
   Plane own;                  // the share of the pixel itself in the sum of the weights
+  Plane correlation;          // covariance with the noise of the pixel, in variances of the pixel; empty: as `own`
   std::vector<Plane> slopes;  // of a fit, if the image has layers: its other coefficients
+
+  const Plane& with_pixel() const { return correlation.empty() ? own : correlation; }
 };
 
 // Half 0 or 1 of the image after each filter, by weights of the other half: first over all images; then, if there are
