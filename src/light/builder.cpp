@@ -72,7 +72,7 @@ void LightSetBuilder::begin_group(const std::string& name) { group_ = name; }
 std::uint32_t LightSetBuilder::number_of(std::shared_ptr<const LightImage> image) {
   if (tables_.images.empty() || tables_.images.back() != image) {
     tables_.images.push_back(std::move(image));
-    tables_.distributions.push_back(nullptr);
+    tables_.distributions.push_back(nullptr), tables_.excesses.push_back(nullptr);
   }
   return std::uint32_t(tables_.images.size());
 }
@@ -80,14 +80,8 @@ std::uint32_t LightSetBuilder::number_of(std::shared_ptr<const LightImage> image
 std::uint32_t LightSetBuilder::number_of_directions(std::shared_ptr<const LightImage> image) {
   const std::uint32_t number = number_of(image);
   if (tables_.distributions[number - 1]) return number;
-  std::vector<float> weights;
-  weights.reserve(image->texels.size());
-  for (const Rgb& t : image->texels) {
-    const float w = average(t);
-    weights.push_back(std::isfinite(w) ? std::max(w, 0.0f) : 0.0f);
-  }
-  tables_.distributions[number - 1] =
-      std::make_shared<const PiecewiseConstant2>(weights, std::uint32_t(image->width), std::uint32_t(image->height));
+  tables_.distributions[number - 1] = distribution_of(*image);
+  tables_.excesses[number - 1] = std::make_shared<const ExcessDistribution>(std::move(image));
   return number;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 #include <bit>
 #include <memory>
+#include <mutex>
+#include <utility>
 
 #include "light/image.h"
 #include "light/row.h"
@@ -13,6 +15,23 @@ namespace montelux {
 struct LightImages {
   const std::shared_ptr<const LightImage>* images = nullptr;
   const std::shared_ptr<const PiecewiseConstant2>* distributions = nullptr;
+};
+
+// Points of the image in proportion to the mean of the components.
+std::shared_ptr<const PiecewiseConstant2> distribution_of(const LightImage& image);
+
+// The same of what exceeds the mean of the image, made when it is first wanted. Half of that mean would leave an even
+// density over the sphere to other directions, and those of a surface are in one hemisphere.
+class ExcessDistribution {
+ public:
+  explicit ExcessDistribution(std::shared_ptr<const LightImage> image) : image_(std::move(image)) {}
+  // Null: nothing exceeds the mean.
+  std::shared_ptr<const PiecewiseConstant2> get() const;
+
+ private:
+  std::shared_ptr<const LightImage> image_;
+  mutable std::once_flag made_;
+  mutable std::shared_ptr<const PiecewiseConstant2> table_;
 };
 
 // Calls f(distribution, lanes) for each image among the rows of the lanes `on`.

@@ -70,7 +70,8 @@ struct LightSample {
                                    // normal incidence divided by the probability of the choice
   Density<SolidAngle, F> density;  // of wi, including the choice of the light; 1 for a delta light
   Mask<F> valid;
-  Mask<F> delta;  // point, spot, distant...: no other technique can find it
+  Mask<F> delta;     // point, spot, distant...: no other technique can find it
+  Mask<F> infinite;  // from infinity, and not delta
 };
 
 // What a ray that hit a light finds there.

@@ -46,6 +46,20 @@ LightSet LightSet::with(std::shared_ptr<const ClusterField> clusters) const {
   return lights;
 }
 
+std::optional<LightSet> LightSet::compensated() const {
+  auto distributions = tables_.distributions;
+  for (std::uint32_t i : unbounded_) {
+    if (kind(LightId(i)) != LightKind::image_infinite) continue;
+    const std::size_t image = rows<float>(i, true).bits(light_slot::image) - 1;
+    if (distributions[image] != tables_.distributions[image]) continue;  // another light has the same image
+    if (auto excess = tables_.excesses[image]->get()) distributions[image] = std::move(excess);
+  }
+  if (distributions == tables_.distributions) return std::nullopt;
+  LightSet lights = *this;
+  lights.compensated_ = std::move(distributions);
+  return lights;
+}
+
 Rgb LightSet::max_hit_radiance(bool masked_alone) const {
   const auto raise = [](Rgb& largest, const Rgb& other) {
     for (int c = 0; c < rgb_size; ++c) largest.c[c] = std::max(largest.c[c], other.c[c]);
@@ -89,7 +103,8 @@ LightSample<F> LightSet::sample_sky(Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on)
   r.radiance = row.emission(), r.density = s.density;
   if (kind(light_of_sky_) == LightKind::image_infinite)
     r.radiance = r.radiance * ImageInfinite<F>(row, images()).factor_at(s.place, on);
-  r.valid = on & !is_black(r.radiance) & (r.density.value > F(0.0f)), r.delta = Mask<F>(false);
+  r.valid = on & !is_black(r.radiance) & (r.density.value > F(0.0f));
+  r.delta = Mask<F>(false), r.infinite = Mask<F>(true);
   return r;
 }
 

@@ -9,6 +9,7 @@
 #include "light/emission.h"
 #include "light/emitters.h"
 #include "light/image.h"
+#include "light/images.h"
 #include "light/light_point.h"
 #include "mc/discrete.h"
 
@@ -23,6 +24,7 @@ struct LightTables {
   std::vector<LightTransform> transforms;                                // by the number in a row; at least one
   std::vector<std::shared_ptr<const LightImage>> images;                 // by the number in a row
   std::vector<std::shared_ptr<const PiecewiseConstant2>> distributions;  // of each image; null: not needed
+  std::vector<std::shared_ptr<const ExcessDistribution>> excesses;       // the same
   std::vector<std::uint32_t> groups;                                     // indices into group_names
   std::vector<std::string> group_names;
   Vec3f scene_centre{};
@@ -58,6 +60,10 @@ class LightSet {
   LightSet with(std::shared_ptr<const SkyField> sky) const;
   // The same lights, of which the hierarchy chooses by what the field knows of its clusters.
   LightSet with(std::shared_ptr<const ClusterField> clusters) const;
+  // The same lights for next-event estimation beside directions that materials draw, which find all light as well: of
+  // images at infinity only what exceeds their mean is sampled (Karlík et al. 2019, "MIS Compensation"). Only sampling
+  // toward the lights changes. None: nothing would.
+  std::optional<LightSet> compensated() const;
   // The lights with a place, if they are chosen by a hierarchy; else it is empty.
   const LightBvh& hierarchy() const { return bvh_; }
   // The light that `sky` is for, as SkyField takes it: the brightest that a ray hits when it leaves the scene; none:
@@ -203,6 +209,9 @@ class LightSet {
   template <class F, class Function>
   void for_each_kind(Uint<F> light, Mask<F> on, Function f) const;
   LightImages images() const { return {tables_.images.data(), tables_.distributions.data()}; }
+  LightImages images_from_places() const {
+    return {tables_.images.data(), compensated_.empty() ? tables_.distributions.data() : compensated_.data()};
+  }
 
   template <class F>
   LightSample<F> sample_kind(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Vec3<F> n, Vec2<F> u, Mask<F> on,
@@ -241,6 +250,8 @@ class LightSet {
 
   LightTables tables_;
   LightSettings settings_;
+  // Distributions of the images at infinity for sampling toward them; empty: as for rays that start there.
+  std::vector<std::shared_ptr<const PiecewiseConstant2>> compensated_;
   std::shared_ptr<const SkyField> sky_;           // null: every light is sampled on its own
   LightId light_of_sky_{};                        // the light that is sampled by the field
   std::shared_ptr<const ClusterField> clusters_;  // null: the hierarchy knows nothing of what is hidden

@@ -41,7 +41,7 @@ template <class F>
 LightSample<F> LightSet::sample_kind(LightKind kind, const LightRows<F>& rows, Vec3<F> p, Vec3<F> n, Vec2<F> u,
                                      Mask<F> on, LightMeasure measure) const {
   LightSample<F> r{};
-  r.valid = Mask<F>(false), r.delta = Mask<F>(is_delta(kind));
+  r.valid = Mask<F>(false), r.delta = Mask<F>(is_delta(kind)), r.infinite = Mask<F>(is_infinite(kind));
   if (is_surface(kind)) {
     with_emitter<F>(kind, rows, [&](const auto& emitter) {
       EmitterPoint<F> e = draw_point(emitter, p, u, measure);
@@ -56,7 +56,7 @@ LightSample<F> LightSet::sample_kind(LightKind kind, const LightRows<F>& rows, V
     return r;
   }
   if (!is_unbounded(kind)) return sample_point_light(kind, rows, p, on);
-  with_unbounded_light<F>(kind, rows, images(), [&](const auto& light) {
+  with_unbounded_light<F>(kind, rows, images_from_places(), [&](const auto& light) {
     const UnboundedSample<F> s = light.sample(n, u, on);
     r.wi = s.wi, r.distance = F(2.0f * tables_.scene_radius);
     r.radiance = rows.emission() * s.factor, r.density = s.density;
@@ -76,7 +76,7 @@ LightSample<F> LightSet::sample_point_light(LightKind kind, const LightRows<F>& 
     r.radiance = light.intensity(-r.wi, on) * (F(1.0f) / d2);
   });
   r.density = {F(1.0f)};
-  r.delta = Mask<F>(true);
+  r.delta = Mask<F>(true), r.infinite = Mask<F>(false);
   r.valid = on & !is_black(r.radiance);
   return r;
 }
@@ -87,13 +87,13 @@ LightSample<F> LightSet::sample_light(Uint<F> light, Vec3<F> p, Vec3<F> n, Vec2<
   LightSample<F> r{};
   r.wi = {F(0.0f), F(0.0f), F(1.0f)};
   r.distance = F(1.0f), r.radiance = gray(F(0.0f)), r.density = {F(0.0f)};
-  r.valid = Mask<F>(false), r.delta = Mask<F>(false);
+  r.valid = r.delta = r.infinite = Mask<F>(false);
   const auto take = [&](const LightSample<F>& s, Mask<F> m) {
     Mask<F> good = m & s.valid;
     r.wi = select(good, s.wi, r.wi), r.distance = select(good, s.distance, r.distance);
     r.radiance = select(good, s.radiance, r.radiance);
     r.density = select(good, s.density, r.density);
-    r.valid = r.valid | good, r.delta = r.delta | (good & s.delta);
+    r.valid = r.valid | good, r.delta = r.delta | (good & s.delta), r.infinite = r.infinite | (good & s.infinite);
   };
   if (sky_) {
     const Mask<F> from_sky = on & (light == Uint<F>(std::uint32_t(light_of_sky_)));
@@ -147,7 +147,7 @@ Density<SolidAngle, F> LightSet::sampling_density(Uint<F> light, Vec3<F> referen
     } else if (is_delta(kind)) {
       r.value = select(m, F(1.0f), r.value);
     } else {
-      with_unbounded_light<F>(kind, rows<F>(light, m), images(), [&](const auto& unbounded) {
+      with_unbounded_light<F>(kind, rows<F>(light, m), images_from_places(), [&](const auto& unbounded) {
         r.value = select(m, unbounded.toward(reference_n, wi, m).density.value, r.value);
       });
     }
@@ -163,7 +163,7 @@ template <class F>
 LightHit<F> LightSet::escaped_light(LightId light, Vec3<F> n, Vec3<F> wi, Mask<F> on) const {
   const LightRows<F> row = rows<F>(Uint<F>(std::uint32_t(light)), Mask<F>(true));
   LightHit<F> r{};
-  with_unbounded_light<F>(kind(light), row, images(), [&](const auto& unbounded) {
+  with_unbounded_light<F>(kind(light), row, images_from_places(), [&](const auto& unbounded) {
     const UnboundedSample<F> s = unbounded.toward(n, wi, on);
     r = {row.emission() * s.factor, s.density};
   });

@@ -155,7 +155,8 @@ inline std::shared_ptr<LightImage> test_image() {
   return image;
 }
 
-inline LightCase image_infinite_case() {
+// `compensated`: sampled beside rays that materials draw.
+inline LightCase image_infinite_case(bool compensated = false) {
   LightSetBuilder b;
   Transform turned = rotate(50, 1, 2, 3);
   b.add_image_infinite(turned, gray_rgb(0.5f), test_image());
@@ -164,7 +165,15 @@ inline LightCase image_infinite_case() {
     return LightPoint{w, -w, {0, 0}, 4 * double(pi)};
   };
   auto chart = [=](Vec3f w) { return square_from_sphere(turned.inverted().direction(w)); };
-  return {"image infinite, turned", LightKind::image_infinite, alone(std::move(b)), {0, 0, 0}, {0, 0, 0}, at, chart};
+  LightSet lights = alone(std::move(b));
+  if (compensated) lights = *lights.compensated();
+  return {compensated ? "image infinite, compensated" : "image infinite, turned",
+          LightKind::image_infinite,
+          std::move(lights),
+          {0, 0, 0},
+          {0, 0, 0},
+          at,
+          chart};
 }
 
 // Every way in which a light of the kind is sampled by a density; none for delta lights.
@@ -206,7 +215,7 @@ inline std::vector<LightCase> light_cases(LightKind kind) {
       return {uniform_infinite_case("sky on both sides", {0, 0, 0}),
               uniform_infinite_case("sky on one side", normalize(Vec3f{1, -2, 0.5f}))};
     case LightKind::image_infinite:
-      return {image_infinite_case()};
+      return {image_infinite_case(), image_infinite_case(true)};
     case LightKind::point:
     case LightKind::spot:
     case LightKind::goniometric:

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "integrator/bidirectional/eye_subpaths.h"
+#include "integrator/compensated_lights.h"
 
 namespace montelux {
 
@@ -14,12 +15,13 @@ class BdptSeries final : public FrameSeries {
  public:
   // What is referred to must outlive the series.
   BdptSeries(const Scene& scene, const Accel& accel, const BidirectionalPaths& paths,
-             const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
-             const SeriesPass& pass)
+             const std::optional<AliasTable>& by_power, const std::optional<LightSet>& compensated,
+             const std::optional<LightMedia>& light_media, const SeriesPass& pass)
       : scene_(scene),
         accel_(accel),
         paths_(paths),
         by_power_(by_power),
+        compensated_(compensated),
         light_media_(light_media),
         pass_(pass),
         one_sided_(has_one_sided_surfaces(scene)),
@@ -66,7 +68,8 @@ class BdptSeries final : public FrameSeries {
                       light_media_ ? &*light_media_ : nullptr,
                       nullptr,
                       PhotonKernel::epanechnikov,
-                      light_of_path_.empty() ? nullptr : light_of_path_.data()};
+                      light_of_path_.empty() ? nullptr : light_of_path_.data(),
+                      compensated_ ? &*compensated_ : nullptr};
     RayCounts counts;
     const LightVertices light = light_vertices<F, AdjointCorrection, in_media>(frame, tile, Splatting::on, counts);
     std::vector<PixelSample> samples(std::size_t(tile.area()));
@@ -89,6 +92,7 @@ class BdptSeries final : public FrameSeries {
   const Accel& accel_;
   const BidirectionalPaths& paths_;
   const std::optional<AliasTable>& by_power_;
+  const std::optional<LightSet>& compensated_;
   const std::optional<LightMedia>& light_media_;
   const SeriesPass pass_;
   const bool one_sided_;
@@ -104,12 +108,14 @@ class BdptSeries final : public FrameSeries {
 BdptIntegrator::BdptIntegrator(const Scene& scene, const Accel& accel, const BidirectionalPaths& paths)
     : scene_(scene), accel_(accel), paths_(paths) {
   if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
+  if (paths.connect) compensated_ = compensated_lights(scene.lights, scene, accel);
   light_media_ = light_media(scene, accel);
 }
 
 std::unique_ptr<FrameSeries> BdptIntegrator::begin(const SeriesPass& pass) const {
   const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<FrameSeries> {
-    return std::make_unique<BdptSeries<F, in_media>>(scene_, accel_, paths_, by_power_, light_media_, pass);
+    return std::make_unique<BdptSeries<F, in_media>>(scene_, accel_, paths_, by_power_, compensated_, light_media_,
+                                                     pass);
   };
   const bool one = paths_.lanes == Lanes::one;
   if (!scene_.media.empty())

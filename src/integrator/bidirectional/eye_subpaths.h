@@ -58,6 +58,12 @@ class EyeSubpaths {
     if (!frame_.paths.connect) return select(only_smooth_, F(1.0f), F(0.0f));
     const M shared = met.on & !seen;
     if (!any(shared)) return F(1.0f);
+    if (frame_.compensated) {
+      const M beyond = frame_.compensated->template is_beyond<F>(met.number, shared);
+      sampled = select(
+          beyond, frame_.compensated->template sampling_density<F>(met.number, path.p, path.n, met.p, path.d, beyond),
+          sampled);
+    }
     const LightEnd<F> end = light_end<F>(frame_.path_lights(), {met.number, met.p, met.n, shared, met.passing}, -path.d,
                                          length_squared(met.p - path.p), sampled);
     return select(shared, frame_.weights.met(weights_, end, met.passing), F(1.0f));
@@ -106,7 +112,7 @@ class EyeSubpaths {
     const Here here{at, M(scatters & !at.bsdf.is_delta)};
 
     // A point of a light, and a direction.
-    const LightSet& lights = scene_.lights;
+    const LightSet& lights = frame_.sampled_lights();
     const ReferencePoint<F> from = at.reference();
     const M wants_light = here.rough & M(frame_.paths.connect && frame_.by_power != nullptr) & wants_sampled;
     const LightChoice<F> choice = lights.template choose<F>(

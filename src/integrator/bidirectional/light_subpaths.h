@@ -37,6 +37,7 @@ struct BidirectionalFrame {
   PhotonKernel kernel = PhotonKernel::epanechnikov;
   // Of a pass with layers: by the number of a path from the lights the light where it starts; else null.
   std::uint32_t* light_of_path = nullptr;
+  const LightSet* compensated = nullptr;  // from which paths from the eye sample light; null: from the scene's
 
   float light_paths() const { return float(light_path_count); }
   // As many as are connected with the lens: no light arrives where camera rays go through the centres of pixels alone.
@@ -50,6 +51,7 @@ struct BidirectionalFrame {
     return std::uint32_t(y - pass.bounds.y0) * std::uint32_t(pass.bounds.width()) + std::uint32_t(x - pass.bounds.x0);
   }
   PathLights path_lights() const { return {scene.lights, *by_power}; }
+  const LightSet& sampled_lights() const { return compensated ? *compensated : scene.lights; }
 
   static constexpr bool every_strategy = true;
   using Tally = LayerTally;  // receives the layers of paths from the eye
@@ -239,7 +241,7 @@ class LightSubpathSink {
     weights_ =
         select_weights(on, frame_.weights.arrive(weights_, at.distance * at.distance, cos, at.passing), weights_);
     if (!any(first)) return;
-    const LightSet& lights = frame_.scene.lights;
+    const LightSet& lights = frame_.sampled_lights();
     const Density<SolidAngle, F> sampled =
         lights.template sampling_density<F>(light_, at.x.point.p, at.bsdf.light_normal, p_, -at.d, first);
     const LightEnd<F> end =

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "integrator/bidirectional/eye_subpaths.h"
+#include "integrator/compensated_lights.h"
 #include "integrator/photons/filling.h"
 #include "integrator/photons/sppm.h"
 
@@ -26,12 +27,13 @@ class VcmSeries final : public FrameSeries {
  public:
   // What is referred to must outlive the series.
   VcmSeries(const Scene& scene, const Accel& accel, const VcmSettings& settings,
-            const std::optional<AliasTable>& by_power, const std::optional<LightMedia>& light_media,
-            const SeriesPass& pass)
+            const std::optional<AliasTable>& by_power, const std::optional<LightSet>& compensated,
+            const std::optional<LightMedia>& light_media, const SeriesPass& pass)
       : scene_(scene),
         accel_(accel),
         settings_(settings),
         by_power_(by_power),
+        compensated_(compensated),
         light_media_(light_media),
         pass_(pass),
         one_sided_(has_one_sided_surfaces(scene)),
@@ -76,7 +78,8 @@ class VcmSeries final : public FrameSeries {
             light_media_ ? &*light_media_ : nullptr,
             &map_,
             settings_.kernel,
-            light_of_path_.empty() ? nullptr : light_of_path_.data()};
+            light_of_path_.empty() ? nullptr : light_of_path_.data(),
+            compensated_ ? &*compensated_ : nullptr};
   }
 
   RayCounts follow_light(const Frame& frame, const LightPathPart& part, std::vector<Photon>& box) {
@@ -120,6 +123,7 @@ class VcmSeries final : public FrameSeries {
   const Accel& accel_;
   const VcmSettings& settings_;
   const std::optional<AliasTable>& by_power_;
+  const std::optional<LightSet>& compensated_;
   const std::optional<LightMedia>& light_media_;
   const SeriesPass pass_;
   const bool one_sided_;
@@ -134,6 +138,7 @@ class VcmSeries final : public FrameSeries {
 VcmIntegrator::VcmIntegrator(const Scene& scene, const Accel& accel, const VcmSettings& settings)
     : scene_(scene), accel_(accel), settings_(settings) {
   if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
+  if (settings.paths.connect) compensated_ = compensated_lights(scene.lights, scene, accel);
   light_media_ = light_media(scene, accel);
 }
 
@@ -141,7 +146,8 @@ int VcmIntegrator::stages() const { return PhotonMap::stages + 1; }
 
 std::unique_ptr<FrameSeries> VcmIntegrator::begin(const SeriesPass& pass) const {
   const auto make = [&]<class F, bool in_media>() -> std::unique_ptr<FrameSeries> {
-    return std::make_unique<VcmSeries<F, in_media>>(scene_, accel_, settings_, by_power_, light_media_, pass);
+    return std::make_unique<VcmSeries<F, in_media>>(scene_, accel_, settings_, by_power_, compensated_, light_media_,
+                                                    pass);
   };
   const bool one = settings_.paths.lanes == Lanes::one;
   if (!scene_.media.empty())

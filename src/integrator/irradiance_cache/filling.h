@@ -56,6 +56,7 @@ class PixelStarts {
 // The paths of an irradiance cache: what `path` does by default, as long as the settings say.
 inline PathSettings cached_path_settings(const IrradianceCacheSettings& settings) {
   PathSettings path;
+  path.mis = PathMis::power;
   path.max_depth = settings.max_depth, path.roulette_depth = settings.roulette_depth;
   return path;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrator/compensated_lights.h"
 #include "integrator/metropolis/path_function.h"
 #include "integrator/metropolis/strategy_function.h"
 #include "integrator/splats.h"
@@ -361,10 +362,13 @@ StrategyChoice pilot(const Scene& scene, const Accel& accel, const StrategyPaths
 
 MetropolisIntegrator::MetropolisIntegrator(const Scene& scene, const Accel& accel, const MetropolisSettings& settings)
     : scene_(scene), accel_(accel), settings_(settings) {
+  path_.mis = PathMis::power;
   path_.max_depth = settings.max_depth, path_.roulette_depth = settings.depth_before_roulette();
   if (settings.strategies == MetropolisStrategies::path) return;
   if (scene.lights.count() > 0) by_power_ = scene.lights.by_power();
   light_media_ = light_media(scene, accel);
+  compensated_ = compensated_lights(scene.lights, scene, accel);
+  strategies_.compensated = compensated_ ? &*compensated_ : nullptr;
   strategies_.paths.max_depth = settings.max_depth, strategies_.paths.roulette_depth = settings.depth_before_roulette();
   strategies_.by_power = by_power_ ? &*by_power_ : nullptr;
   strategies_.light_media = light_media_ ? &*light_media_ : nullptr;

@@ -224,7 +224,8 @@ class StrategyFunction {
                  f.settings_.light_media,
                  nullptr,
                  PhotonKernel::epanechnikov,
-                 f.light_of_path_.empty() ? nullptr : f.light_of_path_.data()},
+                 f.light_of_path_.empty() ? nullptr : f.light_of_path_.data(),
+                 f.settings_.compensated},
                 eye,
                 light,
                 broken} {}

@@ -75,9 +75,9 @@ ResampledLight<F> resampled_light(const LightSet& lights, const PathSettings& se
       },
       [&](const LightSample<F>& light, Mask<F> wanted) {
         const ScatteredLight<F> scattered = evaluate_light(light, chosen_by, wanted);
-        const F share =
-            select(light.delta, F(1.0f),
-                   weight_of_light_sample(settings.light_weights(), light.density, scattered.value.density));
+        const F share = select(
+            light.delta, F(1.0f),
+            weight_of_light_sample(settings.light_weights(), light.density, scattered.value.density, light.infinite));
         return scattered.value.f_cos * light.radiance * scattered.left * share;
       });
 }
@@ -143,14 +143,14 @@ struct PathLight {
     on = counts_emitter(source, path, on);
     if (!any(on)) return;
     const LightHit<F> light = emission_met<F>(lights, {path.p, path.n}, met.v.x, path.d, on);
-    gather_light(path, on, met.left * light.radiance * share(light), tally, [&] {
+    gather_light(path, on, met.left * light.radiance * share(light, false), tally, [&] {
       return LightOrigin<F>{path.depth, met.v.x.light - Uint<F>(1u), Technique::bsdf_sampling};
     });
   }
   MONTELUX_INLINE void sky(const SkyOnRay<F>& met, Mask<F> on) {
     on = counts_light(source, path, on);
     for_each_sky_light<F>(lights, {path.p, path.n}, path.d, on, [&](const LightHit<F>& light, const Uint<F>& number) {
-      gather_light(path, on, met.left * light.radiance * share(light), tally, [&] {
+      gather_light(path, on, met.left * light.radiance * share(light, true), tally, [&] {
         return LightOrigin<F>{path.depth, number, Technique::environment};
       });
     });
@@ -163,8 +163,8 @@ struct PathLight {
   }
 
  private:
-  F share(const LightHit<F>& light) const {
-    return weight_of_light_hit(weights, path.density, by_delta(path), light.density);
+  F share(const LightHit<F>& light, bool infinite) const {
+    return weight_of_light_hit(weights, path.density, by_delta(path), light.density, Mask<F>(infinite));
   }
 };
 
@@ -260,7 +260,8 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
 
     // Next-event estimation.
     F light_weight =
-        select(light.delta, F(1.0f), weight_of_light_sample(weights, light.density, scattered.toward_light.density));
+        select(light.delta, F(1.0f),
+               weight_of_light_sample(weights, light.density, scattered.toward_light.density, light.infinite));
     if constexpr (in_media)
       if (segment_light)
         light_weight =

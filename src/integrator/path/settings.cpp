@@ -94,8 +94,14 @@ Fields<PathSettings> common_fields() {
 Fields<PathSettings> light_fields() {
   Fields<PathSettings> fields;
   fields.boolean("nee", &PathSettings::nee, "next-event estimation")
-      .choice<PathMis>("mis", &PathSettings::mis, "how the two techniques are combined",
-                       {{"balance", PathMis::balance}, {"power", PathMis::power}, {"off", PathMis::off}})
+      .choice<PathMis>(
+          "mis", &PathSettings::mis,
+          "how the two techniques are combined; auto: by the balance heuristic for light from infinity if an "
+          "image of the sky is there, else by power",
+          {{"auto", PathMis::automatic},
+           {"balance", PathMis::balance},
+           {"power", PathMis::power},
+           {"off", PathMis::off}})
       .text("light-selection",
             "how lights are chosen: uniform, power, bvh, learned (bvh with what is learned before the render of which "
             "lights are hidden), or ris:CANDIDATES (one of that many by bvh, by what each would contribute); default: "

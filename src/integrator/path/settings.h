@@ -29,8 +29,9 @@ inline constexpr char lamp_rays_meaning[] =
     "own";
 
 // How next-event estimation and BSDF sampling share the light that both can find; `off`: it is all next-event
-// estimation's where the surface is not a mirror.
-enum class PathMis { off, balance, power };
+// estimation's where the surface is not a mirror; `automatic`: by the power heuristic, except that light from infinity
+// is shared by the balance heuristic where its images are compensated (LightSet::compensated).
+enum class PathMis { off, balance, power, automatic };
 
 // What decides whether a path survives. `throughput`: the square root of the product of its weights; `proportional`:
 // that product itself, so that survivors weigh alike; `fixed`: always the same probability; `efficiency`: the one that
@@ -47,7 +48,7 @@ struct PathSettings {
   std::optional<int> max_depth;
   // Next-event estimation; without it a path waits to hit a light (those that no ray can hit are still sampled).
   bool nee = true;
-  PathMis mis = PathMis::power;
+  PathMis mis = PathMis::automatic;
   PathRoulette roulette = PathRoulette::throughput;
   float fixed_survival = 0.5f;  // of PathRoulette::fixed
   // Of PathRoulette::efficiency: the size of the picture, for the pilot, and what that found; made where there is none.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrator/compensated_lights.h"
 #include "integrator/guiding/training.h"
 #include "integrator/manifold/manifold_light.h"
 #include "integrator/path/loop.h"
@@ -14,6 +15,12 @@ PathTracer::PathTracer(const Scene& scene, const Accel& accel, const PathSetting
     : scene_(scene), accel_(accel), settings_(settings) {
   if (settings.light_selection && *settings.light_selection != scene.lights.settings().selection)
     own_lights_ = scene.lights.with(LightSettings{*settings.light_selection});
+  auto compensated =
+      settings.nee && settings.mis != PathMis::off ? compensated_lights(lights(), scene, accel) : std::nullopt;
+  if (compensated)
+    own_lights_ = std::move(compensated);
+  else if (settings.mis == PathMis::automatic)
+    settings_.mis = PathMis::power;
   if (settings.lamp_rays > 0 && !settings.lamp_pixels)
     settings_.lamp_pixels = LampPixels::of(scene, accel, settings.width, settings.height);
   if (settings.learned_selection || settings.sky_learning) {

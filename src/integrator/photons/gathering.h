@@ -161,7 +161,7 @@ class PhotonGathering {
   M follows(const BsdfSample<F>& next) const { return next.delta | (next.density.value > F(rules_.glossy)); }
   auto weight_for(const PathState<F>& path) const {
     return [this, &path](const Density<SolidAngle, F>& by_light) {
-      return weight_of_light_hit(mis_, path.density, by_delta(path), by_light);
+      return weight_of_light_hit(mis_, path.density, by_delta(path), by_light, M(false));
     };
   }
   // The light that photons scatter toward the path.
@@ -271,7 +271,7 @@ class PhotonGathering {
   void add_direct(PathState<F>& path, const NextVertex<F>& at, const DrawnLight& drawn, const BsdfValue<F>& value) {
     const LightSample<F>& light = drawn.sample;
     const F share =
-        select(light.delta, drawn.share_of_delta, weight_of_light_sample(mis_, light.density, value.density));
+        select(light.delta, drawn.share_of_delta, weight_of_light_sample(mis_, light.density, value.density, M(false)));
     const Spectrum<F> direct = path.throughput * value.f_cos * light.radiance * (share / light.density);
     const M shadow = drawn.on & (max_component(direct) > F(0.0f));
     if (!any(shadow)) return;

@@ -1,5 +1,6 @@
 // What a pixel finds by itself: candidates on lights by several techniques, combined by generalised balance weights.
 #pragma once
+#include "integrator/compensated_lights.h"
 #include "integrator/resampled_light.h"
 #include "integrator/restir/settings.h"
 #include "integrator/restir/vertex.h"
@@ -10,9 +11,15 @@ namespace montelux {
 struct LightTechniques {
   LightSet bvh;
   std::optional<LightSet> by_power;  // none: not used
+  bool are_compensated = false;      // as LightSet has it
 
-  LightTechniques(const LightSet& lights, const RestirSettings& settings) : bvh(lights.with({LightSelection::bvh})) {
-    if (settings.power_candidates > 0) by_power = lights.with({LightSelection::power});
+  LightTechniques(const Scene& scene, const Accel& accel, const RestirSettings& settings)
+      : bvh(scene.lights.with({LightSelection::bvh})) {
+    if (settings.power_candidates > 0) by_power = scene.lights.with({LightSelection::power});
+    if (!settings.bsdf_candidate) return;
+    if (auto compensated = compensated_lights(bvh, scene, accel)) bvh = *std::move(compensated), are_compensated = true;
+    if (by_power)
+      if (auto compensated = compensated_lights(*by_power, scene, accel)) by_power = std::move(compensated);
   }
 };
 

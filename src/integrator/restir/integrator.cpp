@@ -8,8 +8,9 @@ RestirIntegrator::RestirIntegrator(const Scene& scene, const Accel& accel, const
     : scene_(scene),
       accel_(accel),
       settings_(settings),
-      lights_(std::make_unique<LightTechniques>(scene.lights, settings)) {
+      lights_(std::make_unique<LightTechniques>(scene, accel, settings)) {
   PathSettings& path = settings_.path;
+  if (path.mis == PathMis::automatic && !lights_->are_compensated) path.mis = PathMis::power;
   if (path.lamp_rays > 0) path.lamp_pixels = LampPixels::of(scene, accel, path.width, path.height);
 }
 RestirIntegrator::~RestirIntegrator() = default;

@@ -175,7 +175,8 @@ class PathCandidates {
     const PathWalk<F>& w = walk_;
     const M is_delta = w.by_delta != U(0u);
     const M counts = on & (is_delta | (w.events > U(1u)));
-    const F share = weight_of_light_hit(settings_.light_weights(), w.density, is_delta, met.hit.density);
+    const F share = weight_of_light_hit(settings_.light_weights(), w.density, is_delta, met.hit.density,
+                                        M(met.point.place == in_lanes<F>(LightPlace::infinite)));
     const Spectrum<F> contribution = w.weight * met.left * met.hit.radiance * share;
 
     const M joined = counts & (w.joined != U(0u)), straight = w.joined + U(1u) == w.events;
@@ -209,7 +210,8 @@ class PathCandidates {
     if (!any(lit)) return;
     const Density<SolidAngle, F> density = choice.mass * draw.density;
     const F share = select(draw.point.place == in_lanes<F>(LightPlace::delta), F(1.0f),
-                           weight_of_light_sample<F>(settings_.light_weights(), density, to.by_bsdf));
+                           weight_of_light_sample<F>(settings_.light_weights(), density, to.by_bsdf,
+                                                     draw.point.place == in_lanes<F>(LightPlace::infinite)));
     // The density of the light point, in its own measure, is that of the direction times the geometry.
     const Spectrum<F> estimate = to.value * (share / select(lit, density.value * to.geometry, F(1.0f)));
 

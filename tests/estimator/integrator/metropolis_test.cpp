@@ -293,7 +293,7 @@ TEST(StrategyChoice, finds_the_numbers_of_a_strategy) {
 struct RoomStrategies {
   explicit RoomStrategies(const TestScene& s)
       : by_power(s.scene().lights.by_power()),
-        paths{{}, &by_power, nullptr, false, endless_choice()},
+        paths{{}, &by_power, nullptr, nullptr, false, endless_choice()},
         pass{{0, 0, 24, 24}, {}},
         plane(pass.bounds, s.scene().filter),
         evaluate(s.scene(), s.accel(), paths, pass, plane),

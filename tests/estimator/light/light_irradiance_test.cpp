@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "light_cases.h"
+#include "mc/hemisphere.h"
+#include "mc/mis.h"
 #include "statistics.h"
 
 namespace montelux::test {
@@ -156,6 +158,65 @@ TEST(LightIrradiance, many_lights_add_up_whatever_the_choice) {
     SampleSummary wrong = irradiance(lights, {0, 0, 0}, up, true, 1 + 8 * s.standard_error() / truth);
     EXPECT_LT(z_test(wrong.mean, wrong.standard_error(), truth).p_value, level);
   }
+}
+
+// The irradiance of the test image by both techniques: toward the light, and by the cosine. `weighed_by`: whose
+// densities the weights are made of.
+SampleSummary irradiance_by_both(const LightSet& lights, const LightSet& weighed_by, Vec3f n) {
+  RandomStream<float> r(32, 7);
+  std::vector<double> x;
+  const Vec3f origin{0, 0, 0};
+  for (int i = 0; i < draws; ++i) {
+    const float u = r.next();
+    const LightSample<float> s = lights.sample<float>(origin, origin, u, r.next2(), true);
+    double sum = 0;
+    if (const float cosine = dot(s.wi, n); s.valid && cosine > 0)
+      sum += double(s.radiance[0] * cosine / s.density.value) *
+             double(balance_weight(s.density, cosine_hemisphere_density(cosine)));
+    const Vec3f wi = LocalFrame<float>::from_normal(n).to_world(sample_cosine_hemisphere(r.next2()));
+    const LightHit<float> hit = weighed_by.escaped<float>(0, origin, origin, wi, true);
+    sum += double(hit.radiance[0] * pi) * double(balance_weight(cosine_hemisphere_density(dot(wi, n)), hit.density));
+    x.push_back(sum);
+  }
+  return summarize(x);
+}
+
+// What the image of light_cases.h sends to a plane, by the midpoints of small parts of its texels.
+double image_irradiance(const LightCase& c, Vec3f n) {
+  constexpr int parts = 1000;
+  double sum = 0;
+  for (int y = 0; y < parts; ++y)
+    for (int x = 0; x < parts; ++x) {
+      const Vec3f w = c.at((x + 0.5) / parts, (y + 0.5) / parts).p;
+      sum += std::max(double(dot(w, n)), 0.0) * double(test_image()->at(x / (parts / 10), y / (parts / 10))[0]) * 0.5;
+    }
+  return sum * 4 * double(pi) / (double(parts) * parts);
+}
+
+TEST(LightIrradiance, of_compensated_lights_is_shared_with_directions_by_the_cosine) {
+  const LightCase c = image_infinite_case();
+  const LightSet compensated = *c.lights.compensated();
+  const double level = sidak_level(family_level, 12);
+  const auto p_value = [](const SampleSummary& s, double truth) {
+    return z_test(s.mean, s.standard_error(), truth).p_value;
+  };
+  for (const Vec3f n : {Vec3f{0, 0, 1}, normalize(Vec3f{1, -2, 0.5f}), Vec3f{-1, 0, 0}}) {
+    const double truth = image_irradiance(c, n);
+    EXPECT_GT(p_value(irradiance_by_both(compensated, compensated, n), truth), level);
+    EXPECT_GT(p_value(irradiance_by_both(c.lights, c.lights, n), truth), level);
+    // Planted: the directions take the light to be sampled as without compensation. Alone it misses what is dim.
+    EXPECT_LT(p_value(irradiance_by_both(compensated, c.lights, n), truth), level);
+    EXPECT_LT(p_value(irradiance(compensated, {0, 0, 0}, n, false), truth), level);
+  }
+}
+
+TEST(LightIrradiance, leaves_lights_as_they_are_where_there_is_nothing_to_compensate) {
+  EXPECT_FALSE(light_cases(LightKind::disk)[0].lights.compensated().has_value());
+  EXPECT_FALSE(light_cases(LightKind::uniform_infinite)[0].lights.compensated().has_value());
+  LightSetBuilder even;
+  even.add_image_infinite({}, gray_rgb(1.0f),
+                          std::make_shared<LightImage>(LightImage{2, 2, std::vector<Rgb>(4, gray_rgb(0.5f))}));
+  EXPECT_FALSE(alone(std::move(even)).compensated().has_value());
 }
 
 }  // namespace
