@@ -15,7 +15,7 @@ namespace {
 // A correlation counts if it is so many standard errors above zero.
 constexpr double significance = 4;
 // About so many pixels are compared with those around them.
-constexpr int max_pixels = 1 << 17;
+constexpr std::size_t max_pixels = 1 << 17;
 constexpr int brightness_reach = 4;  // pixels over which the brightness is averaged
 
 std::size_t ring_of(int x, int y) { return std::size_t(std::lround(std::hypot(x, y))); }
@@ -52,7 +52,7 @@ struct Ring {
 NoiseCorrelation::NoiseCorrelation(const NoisyImage& image) : of_rings_{1.0f} {
   const Plane noise = relative_noise(image);
   const int w = image.width, h = image.height;
-  const int step = std::max(1, w * h / max_pixels);  // of the rows
+  const int step = std::max(1, int(image.pixels() / max_pixels));  // of the rows
   std::vector<Ring> rings(filter_reach + 1);
   for (int y = 0; y < h; y += step)
     for (int dy = 0; dy <= std::min(filter_reach, h - 1 - y); ++dy)
