@@ -80,13 +80,4 @@ TEST(SkyImage, lights_a_plane_as_all_of_its_quadrants_do) {
   }
 }
 
-TEST(SkyImage, has_less_noise_where_directions_find_what_is_dim) {
-  const TemporaryFolder folder;
-  folder.write("sky.pfm", image());
-  const TestScene scene(plane, folder.path());
-  // With next-event estimation alone all of the image is sampled.
-  const Mean all = measure(scene, "path:mis=off", 32, 6), shared = measure(scene, "path", 32, 7);
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_LT(shared.standard_error[c], 0.7 * all.standard_error[c]) << c;
-}
-
 }  // namespace montelux::test
