@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "api/json_text.h"
 #include "denoise_output.h"
 #include "options.h"
+#include "progress.h"
 #include "status.h"
 #include "verbs.h"
 
@@ -44,9 +46,8 @@ formats contain the denoised colours.
 )";
 
 Status write_output(const std::string& file, const DenoisedFile& denoised) {
-  const Image& image = denoised.image;
-  if (extension_of(file) == ".exr") return write_image(file, image.pixels, {image.attributes, {}});
-  const PixelBuffer colors = *layer(image.pixels, "denoised");
+  if (extension_of(file) == ".exr") return write_exr(file, denoised.rows(), {denoised.image.attributes, {}});
+  const PixelBuffer colors = *layer(denoised.layers, "denoised");
   return write_picture(file, colors, choose_display(colors, Content::light, {}, false).transform);
 }
 
@@ -55,8 +56,22 @@ int run_denoise(const DenoiseArguments& arguments) {
     if (Status good = check_picture_file(file); !good) return complain(good.error());
   const auto filter = parse_denoiser(arguments.denoiser.value_or("montelux"));
   if (!filter) return complain(filter.error());
-  const DenoiseOptions options{arguments.threads, {}, {arguments.before.begin(), arguments.before.end()}, {}, *filter};
+  DenoiseOptions options{arguments.threads, {}, {arguments.before.begin(), arguments.before.end()}, {}, *filter};
+  StatusLine line(!arguments.quiet);
+  const auto seconds = [start = std::chrono::steady_clock::now()] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  double read = 0;  // when the files were
+  options.progress = [&](double share) {
+    const double elapsed = seconds();
+    if (share == 0) read = elapsed;
+    line.show(share, elapsed, [&] {
+      const std::string left = share > 0 ? time_text((elapsed - read) * (1 - share) / share) : "-";
+      return fmt::format("{}  left {}", time_text(elapsed), left);
+    });
+  };
   const Result<DenoisedFile> denoised = denoise_file(arguments.picture, options);
+  line.finish();
   if (!denoised) return complain(denoised.error());
   int status = done;
   for (const std::string& file : arguments.outputs)
@@ -100,7 +115,7 @@ void add_denoise(CLI::App& app, Action& chosen) {
   add_option(verb, {"--threads", "T", "threads; default: one for each processor"},
              into(arguments->threads, [](const std::string& t) { return parse_whole(t, 1, 4096); }));
   verb.add_flag("--json", arguments->json, "the estimated errors, as one JSON object");
-  verb.add_flag("--quiet", arguments->quiet, "no notes or warnings");
+  verb.add_flag("--quiet", arguments->quiet, "no progress, notes or warnings");
   verb.callback([arguments, &chosen] { chosen = [arguments] { return run_denoise(*arguments); }; });
 }
 

@@ -29,11 +29,6 @@ std::string of_layer(std::string_view added, std::string_view name) {
   return std::string(added).append(name.empty() ? "" : "_").append(name);
 }
 
-bool has_both_halves(const NoisyImage& image) {
-  const Plane& share = image.halves[0].share;
-  return std::ranges::any_of(share, [](float s) { return s > 0 && s < 1; });
-}
-
 // `names`: of the layers of light.
 PixelBuffer buffer_of(const DenoisedImage& image, const std::vector<std::string>& names, int width, int height) {
   std::vector<std::string> channels;
@@ -81,40 +76,52 @@ Result<std::vector<NoisyImage>> earlier_images(const std::filesystem::path& file
                                                const std::vector<std::string>& layers) {
   std::vector<NoisyImage> images;
   std::filesystem::path shown = file;
-  PixelBuffer pixels = present;
+  const PixelBuffer* pixels = &present;
+  Image latest;
   MotionPlanes way;
   for (const std::filesystem::path& earlier : before) {
-    Result<MotionPlanes> motion = motion_of(pixels);
+    Result<MotionPlanes> motion = motion_of(*pixels);
     if (!motion) return cannot_be_denoised(shown, motion.error(), "halves,motion");
-    way = images.empty() ? *std::move(motion) : composed(way, *motion, pixels.width, pixels.height);
+    way = images.empty() ? *std::move(motion) : composed(way, *motion, pixels->width, pixels->height);
     Result<Image> image = read_image(earlier);
     if (!image) return image.failure();
-    if (image->pixels.width != pixels.width || image->pixels.height != pixels.height)
+    if (image->pixels.width != pixels->width || image->pixels.height != pixels->height)
       return Failure{fmt::format("'{}' has {} x {} pixels, '{}' {} x {}", earlier.string(), image->pixels.width,
-                                 image->pixels.height, shown.string(), pixels.width, pixels.height)};
+                                 image->pixels.height, shown.string(), pixels->width, pixels->height)};
     const Result<NoisyImage> noisy = noisy_image(image->pixels, layers);
     if (!noisy) return cannot_be_denoised(earlier, noisy.error(), "halves");
     images.push_back(reprojected(*noisy, way));
-    pixels = std::move(image->pixels), shown = earlier;
+    latest = *std::move(image);
+    pixels = &latest.pixels, shown = earlier;
   }
   return images;
 }
 
-Result<DenoisedLayers> denoise_image(const NoisyImage& image, const DenoiseOptions& options,
+Failure lacks_halves() {
+  return Failure{"noise cannot be removed: it takes two independent passes, in both halves of the layers"};
+}
+
+// The image has both halves in some pixel.
+Result<DenoisedLayers> denoise_image(const NoisyRows& image, const DenoiseOptions& options,
                                      std::span<const NoisyImage> others = {}) {
-  if (!has_both_halves(image))
-    return Failure{"noise cannot be removed: it takes two independent passes, in both halves of the layers"};
   const Stopwatch since_start;
+  DenoiseSettings settings{options.threads, options.stop, others, options.filter.get()};
+  settings.progress = options.progress;
   try {
-    const DenoisedImage done =
-        denoise(image, DenoiseSettings{options.threads, options.stop, others, options.filter.get()});
-    return DenoisedLayers{
-        buffer_of(done, options.layers, image.width, image.height),
-        {options.filter ? options.filter->name() : "montelux", done.noisy_mse, done.noisy_relative_mse, done.mse,
-         done.relative_mse, done.unfiltered, done.relative_deviation, done.filtered, since_start.seconds()}};
+    const DenoisedImage done = denoise(image, settings);
+    const ErrorSums& sums = done.sums;
+    return DenoisedLayers{buffer_of(done, options.layers, image.width, image.height),
+                          {options.filter ? options.filter->name() : "montelux", sums.noisy_mse(),
+                           sums.noisy_relative_mse(), sums.mse(), sums.relative_mse(), sums.unfiltered_relative_mse(),
+                           sums.relative_deviation(), sums.changed_share(), since_start.seconds()}};
   } catch (const std::exception& e) {
     return Failure{e.what()};
   }
+}
+
+NoisyRows rows_of(const Film& film, const std::vector<std::string>& layers) {
+  return {film.bounds().width(), film.bounds().height(),
+          [&film, &layers](const RowRange& rows) { return noisy_image(film, layers, rows); }};
 }
 
 // Without the layers that are added.
@@ -142,6 +149,7 @@ namespace {
 Status has_noise_of_halves(const Film& film) {
   if (!film.has_halves()) return Failure{"noise cannot be removed: the film has no halves"};
   if (film.grid().stride > 1) return Failure{"noise is not removed: only a part of the pixels is sampled"};
+  if (!has_both_halves(film)) return lacks_halves();
   return Done{};
 }
 
@@ -158,7 +166,7 @@ DenoiseOptions denoise_options(const std::optional<LayerPlan>& layers, int threa
 
 Result<DenoisedLayers> denoise(const Film& film, const DenoiseOptions& options) {
   if (Status good = has_noise_of_halves(film); !good) return good.failure();
-  return denoise_image(noisy_image(film, options.layers), options);
+  return denoise_image(rows_of(film, options.layers), options);
 }
 
 void JudgedLayers::keep(const Film& film, DenoisedLayers layers) {
@@ -192,15 +200,16 @@ Result<DenoisedLayers> SequenceDenoiser::denoise(const Film& film, const PixelBu
   if (Status good = has_noise_of_halves(film); !good) return good.failure();
   Result<MotionPlanes> to_before = motion_of(motion, "");
   if (!to_before) return to_before.failure();
-  NoisyImage image = noisy_image(film, options.layers);
+  const int width = film.bounds().width(), height = film.bounds().height();
   std::vector<NoisyImage> others;
   MotionPlanes way = *to_before;
   for (const Earlier& one : before) {
     others.push_back(reprojected(one.image, way));
-    way = composed(way, one.motion, image.width, image.height);
+    way = composed(way, one.motion, width, height);
   }
-  Result<DenoisedLayers> layers = denoise_image(image, options, others);
+  Result<DenoisedLayers> layers = denoise_image(rows_of(film, options.layers), options, others);
   if (!layers) return layers;
+  NoisyImage image = noisy_image(film, options.layers, {0, height});
   image.whole.reset();  // what the next images need is in the halves
   before.push_front({std::move(image), *std::move(to_before)});
   if (before.size() > max_earlier) before.pop_back();
@@ -216,15 +225,19 @@ Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const Denoi
   if (!image) return image.failure();
   DenoiseOptions of_file = options;
   of_file.layers = layers_with_halves(image->pixels);
-  const Result<NoisyImage> noisy = noisy_image(image->pixels, of_file.layers);
-  if (!noisy) return cannot_be_denoised(file, noisy.error(), "halves");
-  const Result<std::vector<NoisyImage>> others = earlier_images(file, image->pixels, options.before, of_file.layers);
+  const PixelBuffer& pixels = image->pixels;
+  const auto rows = [&](const RowRange& range) {
+    return noisy_image(montelux::rows_of(pixels, range.first, range.count), of_file.layers);
+  };
+  if (const Result<NoisyImage> one = rows({0, 1}); !one) return cannot_be_denoised(file, one.error(), "halves");
+  if (!has_both_halves(pixels)) return Failure{fmt::format("'{}': {}", file.string(), lacks_halves().message)};
+  const Result<std::vector<NoisyImage>> others = earlier_images(file, pixels, options.before, of_file.layers);
   if (!others) return others.failure();
-  const Result<DenoisedLayers> denoised = denoise_image(*noisy, of_file, *others);
+  Result<DenoisedLayers> denoised = denoise_image(
+      {pixels.width, pixels.height, [&](const RowRange& range) { return *rows(range); }}, of_file, *others);
   if (!denoised) return Failure{fmt::format("'{}': {}", file.string(), denoised.error())};
-  DenoisedFile result{*std::move(image), denoised->estimate};
+  DenoisedFile result{*std::move(image), std::move(denoised->layers), denoised->estimate};
   result.image.pixels = without_added(std::move(result.image.pixels));
-  append_layer(result.image.pixels, "", denoised->layers);
   std::vector<Attribute>& header = result.image.attributes;
   // Others describe how the file was stored.
   std::erase_if(header,
@@ -234,6 +247,15 @@ Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const Denoi
     header.push_back(std::move(entry));
   }
   return result;
+}
+
+ImageRows DenoisedFile::rows() const {
+  const auto rows = [this](int first, int count) {
+    PixelBuffer part = rows_of(image.pixels, first, count);
+    append_layer(part, "", rows_of(layers, first, count));
+    return part;
+  };
+  return {layers.width, layers.height, rows(0, 1).channels, rows};
 }
 
 std::vector<Attribute> header_of(const Denoising& estimate) {

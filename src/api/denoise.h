@@ -30,6 +30,8 @@ struct DenoiseOptions {
   // Of a film: the names of its layers of light, all of which are filtered as well; none: they are not.
   std::vector<std::string> layers = {};
   std::shared_ptr<const ColorFilter> filter = {};  // as parse_denoiser() has it; null: ours
+  // Called now and then, by one thread at a time, with the share that is done.
+  std::function<void(double)> progress = {};
 };
 
 // For a film with these layers of light.
@@ -97,10 +99,14 @@ class SequenceDenoiser {
   std::deque<Earlier> earlier_;  // the latest first
 };
 
-// An .exr that was rendered with the layers of both halves, with the layers above added, or replaced.
+// An .exr that was rendered with the layers of both halves, and the layers above, which it loses if it had them.
 struct DenoisedFile {
   Image image;
+  PixelBuffer layers;
   Denoising estimate;
+
+  // With all layers. This must outlive it.
+  ImageRows rows() const;
 };
 Result<DenoisedFile> denoise_file(const std::filesystem::path& file, const DenoiseOptions& options = {});
 

@@ -19,6 +19,9 @@ namespace {
 // A number that is not one, or too large to be squared, belongs to no pixel that can be filtered.
 bool is_usable(double x) { return std::abs(x) < 1e18; }
 
+// Of a pixel with passes in both halves.
+bool is_part(double share) { return share > 0 && share < 1; }
+
 // Layer `number` of the film at a pixel; where the pixel is not `usable` both halves are the whole.
 void copy_layer(const LayerFilm& film, int number, int x, int y, bool usable, std::size_t i, NoisyLayer& layer) {
   const std::array<LayerHalf, 2> halves = film.halves(x, y, number);
@@ -218,8 +221,9 @@ void finish_halves(const LayerColors& color, NoisyImage& noisy) {
 
 }  // namespace
 
-NoisyImage noisy_image(const Film& film, const std::vector<std::string>& layers) {
-  const PixelBounds& b = film.bounds();
+NoisyImage noisy_image(const Film& film, const std::vector<std::string>& layers, const RowRange& rows) {
+  const PixelBounds& all = film.bounds();
+  const PixelBounds b{all.x0, all.y0 + rows.first, all.x1, all.y0 + rows.end()};
   NoisyImage image(b.width(), b.height());
   for (const std::string& name : layers)
     image.layers.emplace_back(image.pixels(), film.layers()->has_spread(), *layer_family(name));
@@ -250,6 +254,21 @@ NoisyImage noisy_image(const Film& film, const std::vector<std::string>& layers)
         copy_layer(*film.layers(), int(k), x, y, usable, i, image.layers[k]);
     }
   return image;
+}
+
+bool has_both_halves(const Film& film) {
+  const PixelBounds& b = film.bounds();
+  for (int y = b.y0; y < b.y1; ++y)
+    for (int x = b.x0; x < b.x1; ++x)
+      if (is_part(film.halves(x, y).front().share)) return true;
+  return false;
+}
+
+bool has_both_halves(const PixelBuffer& image) {
+  const std::optional<int> share = find_channel(image, half_layer_names[0].share);
+  for (std::size_t i = 0; share && i < image.pixel_count(); ++i)
+    if (is_part(double(image.values[i * image.channels.size() + std::size_t(*share)]))) return true;
+  return false;
 }
 
 std::vector<std::string> layers_with_halves(const PixelBuffer& image) {

@@ -187,12 +187,6 @@ std::vector<std::string> half_channels(const std::vector<std::string>& channels)
 
 namespace {
 
-PixelBuffer rows_of(const PixelBuffer& image, int first, int count) {
-  const auto row = std::ptrdiff_t(image.width) * image.channel_count();
-  const auto begin = image.values.begin() + first * row;
-  return {image.width, count, image.channels, {begin, begin + count * row}};
-}
-
 // The rows [first, first + count) of all layers.
 PixelBuffer layers_of_rows(const Rendering& rendering, int first, int count) {
   const Film& film = rendering.result.film;

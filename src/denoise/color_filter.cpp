@@ -61,9 +61,7 @@ DenoisedImage denoise_by(const ColorFilter& filter, const NoisyImage& image, con
   FilteredColors all = unfiltered(image);
   halves.apply(all);
   error.state(all, image.whole ? &*image.whole : nullptr, result);
-  std::size_t changed = 0;
-  for (std::size_t i = 0; i < image.pixels(); ++i) changed += image.has_halves(i) ? 1 : 0;
-  result.filtered = double(changed) / double(image.pixels());
+  error.count_changed([&](std::size_t i) { return image.has_halves(i); }, result.sums);
   for (const NoisyLayer& layer : image.layers) {
     FilteredColors colors = unfiltered_layer(layer);
     halves.apply(colors);

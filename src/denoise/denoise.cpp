@@ -96,8 +96,7 @@ class Denoiser {
     const FilteredColors all = filtered_colors();
     const FilterError error(image_, lamps_, &own_, settings_);
     error.state(all, whole_, result);
-    const auto changed = std::ranges::count_if(mixture_.unfiltered, [](float share) { return share < 1; });
-    result.filtered = double(changed) / double(image_.pixels());
+    error.count_changed([&](std::size_t i) { return mixture_.unfiltered[i] < 1; }, result.sums);
     add_layers(error, result);
     return result;
   }

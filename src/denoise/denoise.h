@@ -1,6 +1,8 @@
 // Removal of noise: a filter over an image, and an estimate of the error that is left.
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
@@ -50,21 +52,58 @@ struct NoisyImage {
   bool has_halves(std::size_t i) const { return halves[0].share[i] > 0 && halves[0].share[i] < 1; }
 };
 
+// Rows of an image, counted from the top.
+struct RowRange {
+  int first = 0, count = 0;
+
+  int end() const { return first + count; }
+  bool has(int row) const { return row >= first && row < end(); }
+};
+
+// The same, without the others.
+NoisyImage rows_of(const NoisyImage& image, const RowRange& rows);
+
+// An image that is never in memory as a whole.
+struct NoisyRows {
+  int width = 0, height = 0;
+  std::function<NoisyImage(const RowRange&)> rows;
+};
+
 struct DenoisedLayer {
   ColorPlanes color;
   ColorPlanes error;  // as that of the image; empty planes where the variance is not known
 };
 
+// Sums of estimated squared errors over pixels and channels. Relative: over the square of the expectation plus
+// relative_epsilon, as in ErrorEstimate.
+struct ErrorSums {
+  double noisy = 0, noisy_relative = 0;        // before the filter
+  double filtered = 0, filtered_relative = 0;  // after it
+  double least = 0;                            // what the difference of the halves shows, of `filtered`
+  double unfiltered = 0;           // of `filtered_relative`, noise of pixels that the filter leaves as it is
+  double squares = 0;              // of what each pixel adds to `filtered_relative` by itself, less the mean around it
+  double measured = 0;             // pixels with both halves times channels
+  double pixels = 0, changed = 0;  // all pixels; those that the filter changes
+
+  void add(const ErrorSums& other);
+  // Means over channels and pixels.
+  double noisy_mse() const { return mean(noisy); }
+  double noisy_relative_mse() const { return mean(noisy_relative); }
+  double mse() const { return mean(std::max(filtered, least)); }
+  double relative_mse() const { return mean(filtered_relative); }
+  double unfiltered_relative_mse() const { return mean(unfiltered); }
+  // The standard deviation of relative_mse(), by the spread of what pixels add to it.
+  double relative_deviation() const { return mean(std::sqrt(squares)); }
+  double changed_share() const { return changed / std::max(pixels, 1.0); }
+
+ private:
+  double mean(double sum) const { return sum / std::max(measured, 1.0); }
+};
+
 struct DenoisedImage {
   ColorPlanes color;
   ColorPlanes error;  // root of the estimated mean squared error, bias included; a mean over 21 x 21 pixels
-  // Estimated mean squared errors, over channels and pixels, of the image and of the filtered one. Relative: over the
-  // square of the expectation plus relative_epsilon, as in ErrorEstimate.
-  double noisy_mse = 0, noisy_relative_mse = 0;
-  double mse = 0, relative_mse = 0;
-  double unfiltered = 0;          // of relative_mse, noise of pixels that the filter leaves as it is
-  double relative_deviation = 0;  // the standard deviation of relative_mse, by the spread of what pixels add to it
-  double filtered = 0;            // share of the pixels that the filter changes
+  ErrorSums sums;
   std::vector<DenoisedLayer> layers;
 };
 
@@ -75,6 +114,11 @@ struct DenoiseSettings {
   // alike: earlier ones of a sequence, reprojected. Pixels without a pass have the share 0.
   std::span<const NoisyImage> others = {};
   const ColorFilter* filter = nullptr;  // instead of ours
+  // Those whose errors are summed, of an image that is a part of a larger one; nothing: all.
+  std::optional<RowRange> counted_rows = {};
+  std::size_t max_band = std::size_t(1) << 20;  // about so many pixels of NoisyRows are filtered at once
+  // Called now and then, by one thread at a time, with the share that is done.
+  std::function<void(double)> progress = {};
 };
 
 // Filters each half by weights that come from the other half alone: differences of its colours, relative to their
@@ -91,5 +135,12 @@ struct DenoiseSettings {
 // layers. The result is the mean of both halves: whatever the filter does, the error of each is known without bias by
 // the other half. It takes no other images; what it throws is passed on.
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
+
+// The same of an image in bands of rows, so that what the filter stores is bounded. Each is
+// filtered with as many rows around it as determine its colours, which are those of the whole image, up to rounding.
+// What is known of the image as a whole (how far pixels share their noise, how often few bright samples are a detail)
+// is known of each band by itself, so that errors are stated a little differently. Another filter than ours sees the
+// whole image.
+DenoisedImage denoise(const NoisyRows& image, const DenoiseSettings& settings = {});
 
 }  // namespace montelux

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "denoise/box_mean.h"
@@ -19,14 +18,15 @@ constexpr int tile_side = 64;    // about that of the tiles over which they are 
 
 // The difference of the halves shows their noise alone: the error is not less. The greater of two noisy numbers is too
 // large on average, so sums over large tiles are compared.
-double sum_of_errors(const NoisyImage& image, const Plane& error, const Plane& noise) {
+double sum_of_errors(const NoisyImage& image, const RowRange& counted, const Plane& error, const Plane& noise) {
   const auto tiles_of = [](int pixels) { return std::max((pixels + tile_side / 2) / tile_side, 1); };
-  const int rows = tiles_of(image.height), columns = tiles_of(image.width);
+  const int rows = tiles_of(counted.count), columns = tiles_of(image.width);
+  const auto row_of = [&](int tile) { return counted.first + counted.count * tile / rows; };
   double sum = 0;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       double of_tile = 0, at_least = 0;
-      for (int y = image.height * row / rows; y < image.height * (row + 1) / rows; ++y)
+      for (int y = row_of(row); y < row_of(row + 1); ++y)
         for (int x = image.width * column / columns; x < image.width * (column + 1) / columns; ++x) {
           const auto i = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
           of_tile += double(error[i]), at_least += double(noise[i]);
@@ -38,24 +38,12 @@ double sum_of_errors(const NoisyImage& image, const Plane& error, const Plane& n
 
 }  // namespace
 
-// Sums of squared errors over pixels and channels.
-struct FilterError::Sums {
-  double noisy = 0, noisy_relative = 0;
-  double filtered = 0, filtered_relative = 0;
-  double least = 0;  // what the difference of the halves shows, of `filtered`
-  double measured = 0;
-  double unfiltered = 0;  // of `filtered_relative`, noise of pixels that is left as it is
-  // Of each pixel: what it adds to `filtered_relative` by itself, less the mean around it.
-  std::vector<double> apart;
-
-  explicit Sums(std::size_t pixels) : apart(pixels) {}
-  void add(const Sums& other) {
-    noisy += other.noisy, noisy_relative += other.noisy_relative;
-    filtered += other.filtered, filtered_relative += other.filtered_relative;
-    least += other.least, measured += other.measured, unfiltered += other.unfiltered;
-    for (std::size_t i = 0; i < apart.size(); ++i) apart[i] += other.apart[i];
-  }
-};
+void ErrorSums::add(const ErrorSums& other) {
+  noisy += other.noisy, noisy_relative += other.noisy_relative;
+  filtered += other.filtered, filtered_relative += other.filtered_relative;
+  least += other.least, unfiltered += other.unfiltered, squares += other.squares, measured += other.measured;
+  pixels += other.pixels, changed += other.changed;
+}
 
 FilteredColors unfiltered(const NoisyImage& image) {
   return {{&image.halves[0].color, &image.halves[1].color}, &image.variance};
@@ -69,13 +57,7 @@ void FilterError::state(const FilteredColors& all, const FilmPlanes* whole, Deno
   result.color = mean_of(all);
   const RelativeScale scale = whole ? scale_by_expectation(*whole, filtered_image(all, result.color), settings_)
                                     : scale_by_colors(result.color);
-  const Sums sums = estimate(all, scale, result.error);
-  const double count = std::max(sums.measured, 1.0);
-  result.noisy_mse = sums.noisy / count, result.noisy_relative_mse = sums.noisy_relative / count;
-  result.mse = std::max(sums.filtered, sums.least) / count, result.relative_mse = sums.filtered_relative / count;
-  result.unfiltered = sums.unfiltered / count;
-  const double squares = std::inner_product(sums.apart.begin(), sums.apart.end(), sums.apart.begin(), 0.0);
-  result.relative_deviation = std::sqrt(squares) / count;
+  result.sums = estimate(all, scale, result.error);
 }
 
 DenoisedLayer FilterError::layer(const FilteredColors& colors) const {
@@ -131,22 +113,31 @@ double FilterError::squared_error_at(const FilteredColors& colors, std::size_t c
   return squared_error(noisy, {first, second, double(own_->covariance[0][i]), double(own_->covariance[1][i])});
 }
 
-// The error of each pixel, and sums over all.
-FilterError::Sums FilterError::estimate(const FilteredColors& colors, const RelativeScale& scale,
-                                        ColorPlanes& errors) const {
-  std::vector<Sums> of_channels(rgb_size, Sums(image_.pixels()));
+// The error of each pixel, and sums over those that are counted.
+ErrorSums FilterError::estimate(const FilteredColors& colors, const RelativeScale& scale, ColorPlanes& errors) const {
+  std::array<ErrorOfChannel, rgb_size> channels;
   for_each_unit(rgb_size, settings_, [&](std::size_t c) {
-    errors[c] = error_of_channel(colors, c, scale.reciprocals[c], scale.of_covers[c], of_channels[c]);
+    channels[c] = error_of_channel(colors, c, scale.reciprocals[c], scale.of_covers[c]);
   });
-  Sums sums = std::move(of_channels[0]);
-  for (std::size_t c = 1; c < rgb_size; ++c) sums.add(of_channels[c]);
+  ErrorSums sums;
+  for (std::size_t c = 0; c < rgb_size; ++c) {
+    sums.add(channels[c].sums);
+    errors[c] = std::move(channels[c].error);
+  }
+  for (std::size_t i = 0; i < image_.pixels(); ++i)
+    if (is_counted(i))
+      sums.squares +=
+          square(double(channels[0].apart[i]) + double(channels[1].apart[i]) + double(channels[2].apart[i]));
   return sums;
 }
 
-Plane FilterError::error_of_channel(const FilteredColors& colors, std::size_t c, const Plane& scale,
-                                    const Plane& of_covers, Sums& sums) const {
-  Plane error(image_.pixels(), 0.0f), spread(image_.pixels(), 0.0f);
+FilterError::ErrorOfChannel FilterError::error_of_channel(const FilteredColors& colors, std::size_t c,
+                                                          const Plane& scale, const Plane& of_covers) const {
+  ErrorOfChannel channel{Plane(image_.pixels(), 0.0f), {}, {}};
+  Plane &error = channel.error, spread(image_.pixels(), 0.0f);
+  ErrorSums not_counted;
   for (std::size_t i = 0; i < image_.pixels(); ++i) {
+    ErrorSums& sums = is_counted(i) ? channel.sums : not_counted;
     if (!image_.has_halves(i)) continue;
     double squared = squared_error_at(colors, c, i), noisy = double((*colors.variance)[c][i]);
     double difference = double(colors.filtered[0][c][i]) - double(colors.filtered[1][c][i]);
@@ -170,12 +161,13 @@ Plane FilterError::error_of_channel(const FilteredColors& colors, std::size_t c,
   // Means of relative errors: those of bright pixels must not spread to dark ones.
   const Plane mean = box_mean(error, image_.width, image_.height, error_reach);
   const Plane noise = box_mean(spread, image_.width, image_.height, error_reach);
-  sums.filtered_relative += sum_of_errors(image_, error, spread);
+  channel.sums.filtered_relative = sum_of_errors(image_, counted_, error, spread);
+  channel.apart = error;
   for (std::size_t i = 0; i < image_.pixels(); ++i) {
-    sums.apart[i] += double(error[i] - mean[i]);
+    channel.apart[i] -= mean[i];
     error[i] = std::sqrt(std::max({mean[i], noise[i], 0.0f}) / scale[i]);
   }
-  return error;
+  return channel;
 }
 
 }  // namespace montelux

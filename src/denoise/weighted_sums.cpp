@@ -426,12 +426,19 @@ std::vector<PaddedImage> padded_images(const NoisyImage& image, const DenoiseSet
   return images;
 }
 
-// Calls f(half, x0, y0) for each half of each tile, by all threads.
+// Calls f(half, x0, y0) for each half of each tile, by all threads. `stage`: 0 for the image, 1 for its layers.
 template <class Function>
-void for_each_tile(const NoisyImage& image, const DenoiseSettings& settings, Function f) {
+void for_each_tile(const NoisyImage& image, const DenoiseSettings& settings, int stage, Function f) {
   const auto across = std::size_t((image.width + tile_width - 1) / tile_width);
   const std::size_t tiles = across * std::size_t((image.height + tile_height - 1) / tile_height);
-  for_each_unit(2 * tiles, settings, [&](std::size_t unit) {
+  const double stages = image.layers.empty() ? 1 : 2;
+  std::size_t started = 0;
+  DenoiseSettings of_stage = settings;
+  of_stage.stop = [&] {
+    if (settings.progress) settings.progress((stage + double(started++) / double(2 * tiles)) / stages);
+    return settings.stop && settings.stop();
+  };
+  for_each_unit(2 * tiles, of_stage, [&](std::size_t unit) {
     const std::size_t tile = unit / 2;
     f(unit % 2, int(tile % across) * tile_width, int(tile / across) * tile_height);
   });
@@ -455,7 +462,7 @@ FilteredHalves filter_halves(const NoisyImage& image, const DenoiseSettings& set
         half[k].slopes.assign(fit_features, Plane(image.pixels()));
     }
   }
-  for_each_tile(image, settings, [&](std::size_t half, int x0, int y0) {
+  for_each_tile(image, settings, 0, [&](std::size_t half, int x0, int y0) {
     TileFilter filter(images[0], half, x0, y0);
     const auto sums = std::make_unique<ColorSums>();
     const auto copy = [&](std::size_t first) {
@@ -492,7 +499,7 @@ std::vector<std::array<ColorPlanes, 2>> filter_layers(const NoisyImage& image, c
     for (const NoisyImage& other : settings.others)
       padded[half].push_back(padded_layers(other, half, mixture, filtered[half], std::span(filters).first(1)));
   }
-  for_each_tile(image, settings, [&](std::size_t half, int x0, int y0) {
+  for_each_tile(image, settings, 1, [&](std::size_t half, int x0, int y0) {
     TileFilter filter(images[0], half, x0, y0);
     LayerSums sums(padded[half].front().planes.size());
     for (std::size_t i = 0; i < images.size(); ++i) {

@@ -70,6 +70,7 @@ Result<std::string> encode_exr(const std::filesystem::path& path, const ImageRow
 
 // Writes them as write_file() does; never throws.
 Status write_image(const std::filesystem::path& path, const PixelBuffer& image, const ExrOptions& options = {});
+Status write_exr(const std::filesystem::path& path, const ImageRows& image, const ExrOptions& options = {});
 
 // An 8-bit picture that is ready for display: 1 (gray) or 3 (RGB) interleaved channels, the top row first.
 struct DisplayImage {

@@ -220,6 +220,10 @@ Status write_image(const std::filesystem::path& path, const PixelBuffer& image, 
   return write_bytes(path, encode_image(path, image, options));
 }
 
+Status write_exr(const std::filesystem::path& path, const ImageRows& image, const ExrOptions& options) {
+  return write_bytes(path, encode_exr(path, image, options));
+}
+
 Status write_image(const std::filesystem::path& path, const DisplayImage& image) {
   return write_bytes(path, encode_image(path, image));
 }

@@ -51,6 +51,12 @@ std::optional<PixelBuffer> layer(const PixelBuffer& image, std::string_view name
   return out;
 }
 
+PixelBuffer rows_of(const PixelBuffer& image, int first, int count) {
+  const auto row = std::ptrdiff_t(image.width) * image.channel_count();
+  const auto begin = image.values.begin() + first * row;
+  return {image.width, count, image.channels, {begin, begin + count * row}};
+}
+
 void append_layer(PixelBuffer& image, std::string_view name, const PixelBuffer& added) {
   assert(image.channels.empty() || (image.width == added.width && image.height == added.height));
   PixelBuffer out{added.width, added.height, image.channels, {}};

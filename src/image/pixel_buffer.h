@@ -42,6 +42,8 @@ Rgb rgb_at(const PixelBuffer& image, const std::array<int, 3>& channels, int x, 
 // The channels "name.X" as a buffer whose channels are called "X"; the empty name selects the channels without a dot.
 // Nothing if there are none.
 std::optional<PixelBuffer> layer(const PixelBuffer& image, std::string_view name);
+// Rows of it, counted from the top.
+PixelBuffer rows_of(const PixelBuffer& image, int first, int count);
 // Appends the channels of a buffer of the same size as "name.X" (as "X" for the empty name).
 void append_layer(PixelBuffer& image, std::string_view name, const PixelBuffer& added);
 

@@ -70,7 +70,7 @@ TEST(DenoisedLayers, of_a_file_are_those_of_the_film) {
   const std::filesystem::path file = std::filesystem::path(folder.path()) / "halves.exr";
   const Rendering rendering = rendering_of(16, 1, "bounces:1,errors,halves", false);
   ASSERT_TRUE(write_rendering(file, rendering, {}));
-  const PixelBuffer of_file = denoise_file(file)->image.pixels;
+  const PixelBuffer of_file = denoise_file(file)->layers;
   const PixelBuffer of_film = layers_of(rendering_of(16, 1, "bounces:1,errors", true));
   for (const char* name : {"denoised_bounce1", "denoised_error_bounce1", "denoised_bounce_rest"}) {
     const PixelBuffer a = *layer(of_file, name), b = *layer(of_film, name);

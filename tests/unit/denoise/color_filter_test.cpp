@@ -116,7 +116,7 @@ double deviation_of_stated() {
     const Filter filter;
     const NoisyImage image = noisy_image(seed);
     const DenoisedImage done = denoise(image, {1, {}, {}, &filter});
-    const double difference = done.mse - true_mse(done);
+    const double difference = done.sums.mse() - true_mse(done);
     sum += difference, squares += difference * difference;
   }
   const double mean = sum / images;

@@ -135,11 +135,11 @@ TEST(Denoise, states_the_error_of_the_image_and_of_the_result) {
         for (std::size_t i = 0; i < before[c].size(); ++i) before[c][i] = mixed(m, c, i);
       double variance = 0;
       for (const Plane& plane : m.image.variance) variance += std::accumulate(plane.begin(), plane.end(), 0.0);
-      EXPECT_NEAR(result.noisy_mse, variance / (3.0 * double(m.image.pixels())), 1e-6);
+      EXPECT_NEAR(result.sums.noisy_mse(), variance / (3.0 * double(m.image.pixels())), 1e-6);
       const double error = mean_squared_error(result.color, m.truth);
       EXPECT_LT(error, 0.1 * mean_squared_error(before, m.truth));
-      left += error, stated += result.mse;
-      relative_left += mean_relative_error(result.color, m.truth), relative_stated += result.relative_mse;
+      left += error, stated += result.sums.mse();
+      relative_left += mean_relative_error(result.color, m.truth), relative_stated += result.sums.relative_mse();
     }
     // The choice of the least of several estimates lowers the stated error, the lower bound by the difference of the
     // halves raises it.
@@ -181,7 +181,7 @@ TEST(Denoise, states_the_error_of_an_image_whose_noise_differs_from_pixel_to_pix
       for (std::size_t i = 0; i < m.image.pixels(); ++i)
         planted +=
             double(square(result.error[c][i]) * reciprocal_square(result.color[c][i])) / double(3 * m.image.pixels());
-    off.add(result.relative_mse - left), planted_off.add(planted - left);
+    off.add(result.sums.relative_mse() - left), planted_off.add(planted - left);
   }
   EXPECT_LT(std::abs(off.mean), 3 * off.standard_error());
   EXPECT_GT(planted_off.mean, 4 * planted_off.standard_error());
@@ -194,10 +194,10 @@ TEST(Denoise, knows_how_uncertain_the_stated_error_is) {
   for (unsigned seed = 0; seed < seeds; ++seed) {
     const Made m = made(seed);
     const DenoisedImage result = denoise(m.image);
-    const double off = result.relative_mse - mean_relative_error(result.color, m.truth);
-    squares += off * off / (result.relative_deviation * result.relative_deviation) / seeds;
-    EXPECT_GT(result.unfiltered, 0);
-    EXPECT_LT(result.unfiltered, result.noisy_relative_mse);
+    const double off = result.sums.relative_mse() - mean_relative_error(result.color, m.truth);
+    squares += off * off / (result.sums.relative_deviation() * result.sums.relative_deviation()) / seeds;
+    EXPECT_GT(result.sums.unfiltered_relative_mse(), 0);
+    EXPECT_LT(result.sums.unfiltered_relative_mse(), result.sums.noisy_relative_mse());
   }
   // Deviations that were half or twice as large would be out of this range.
   EXPECT_GT(std::sqrt(squares), 0.65);
@@ -287,7 +287,7 @@ TEST(Denoise, leaves_pixels_alone_that_have_no_two_halves_or_no_noise) {
   const DenoisedImage same = denoise(exact.image);
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < exact.image.pixels(); ++i) ASSERT_NEAR(same.color[c][i], exact.truth[c][i], 1e-4f);
-  EXPECT_NEAR(same.mse, 0, 1e-8);
+  EXPECT_NEAR(same.sums.mse(), 0, 1e-8);
 }
 
 // Noise of the features is none of the surfaces: it does not keep pixels apart. Planted: noise that both halves share
@@ -398,7 +398,7 @@ TEST(Denoise, averages_over_other_images_too) {
     const Made m = made(seed), earlier = made(200 + seed);
     alone += mean_squared_error(denoise(m.image).color, m.truth);
     const DenoisedImage result = denoise(m.image, {0, {}, {&earlier.image, 1}});
-    together += mean_squared_error(result.color, m.truth), stated += result.mse;
+    together += mean_squared_error(result.color, m.truth), stated += result.sums.mse();
   }
   EXPECT_LT(together, 0.85 * alone);
   EXPECT_GT(stated, 0.7 * together);
@@ -447,7 +447,7 @@ TEST(Denoise, has_the_same_bits_for_any_number_of_threads) {
     const DenoisedImage other = denoise(m.image, {threads, {}});
     EXPECT_EQ(one.color, other.color);
     EXPECT_EQ(one.error, other.error);
-    EXPECT_EQ(one.relative_mse, other.relative_mse);
+    EXPECT_EQ(one.sums.relative_mse(), other.sums.relative_mse());
     EXPECT_EQ(one.layers[1].color, other.layers[1].color);
     EXPECT_EQ(one.layers[1].error, other.layers[1].error);
   }

@@ -149,9 +149,9 @@ TEST(SmallLamps, have_their_noise_in_the_stated_error) {
       for (int x = 0; x < width; ++x)
         for (std::size_t c = 0; c < 3; ++c)
           error += std::pow(double(result.color[c][at(x, y)]) - truth(x, y, c, lamp), 2) / (3.0 * width * height);
-    const double difference = result.mse - error;
+    const double difference = result.sums.mse() - error;
     sum += difference, square += difference * difference, left += error;
-    planted += denoise(split_small_lamps(image)->rest).mse;
+    planted += denoise(split_small_lamps(image)->rest).sums.mse();
   }
   const double mean = sum / seeds, deviation = std::sqrt((square / seeds - mean * mean) / seeds);
   EXPECT_LT(std::abs(mean), 4 * deviation);

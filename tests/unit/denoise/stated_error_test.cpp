@@ -98,10 +98,10 @@ Sums sums_of(Law law, int passes) {
     NoisyImage image = image_of(film_of(law, passes, std::uint32_t(seed)));
     const DenoisedImage result = denoise(image);
     sums.noisy += true_error(law, image.whole->mean);
-    sums.left += true_error(law, result.color), sums.stated += result.relative_mse;
+    sums.left += true_error(law, result.color), sums.stated += result.sums.relative_mse();
     image.whole.reset();
     const DenoisedImage planted = denoise(image);
-    sums.planted_left += true_error(law, planted.color), sums.planted += planted.relative_mse;
+    sums.planted_left += true_error(law, planted.color), sums.planted += planted.sums.relative_mse();
   }
   return sums;
 }
