@@ -45,8 +45,8 @@ denoised_NAME, which sum to the denoised colours, and denoised_error_NAME if the
 formats contain the denoised colours.
 )";
 
-Status write_output(const std::string& file, const DenoisedFile& denoised) {
-  if (extension_of(file) == ".exr") return write_exr(file, denoised.rows(), {denoised.image.attributes, {}});
+Status write_output(const std::string& file, const DenoisedFile& denoised, int threads) {
+  if (extension_of(file) == ".exr") return write_exr(file, denoised.rows(), {denoised.image.attributes, {}, threads});
   const PixelBuffer colors = *layer(denoised.layers, "denoised");
   return write_picture(file, colors, choose_display(colors, Content::light, {}, false).transform);
 }
@@ -75,7 +75,7 @@ int run_denoise(const DenoiseArguments& arguments) {
   if (!denoised) return complain(denoised.error());
   int status = done;
   for (const std::string& file : arguments.outputs)
-    if (Status written = write_output(file, *denoised); !written) {
+    if (Status written = write_output(file, *denoised, arguments.threads); !written) {
       complain(written.error());
       status = failed;
     }

@@ -238,7 +238,7 @@ Result<std::string> encode_rendering(const std::filesystem::path& file, const Re
     const PixelBounds& bounds = rendering.result.film.bounds();
     const auto rows = [&rendering](int first, int count) { return layers_of_rows(rendering, first, count); };
     const ImageRows image{bounds.width(), bounds.height(), rows(0, 1).channels, rows};
-    ExrOptions options{rendering.header, {}};
+    ExrOptions options{rendering.header, {}, rendering.threads};
     if (half) options.half_channels = half_channels(image.channels);
     return encode_exr(file, image, options);
   }
@@ -281,11 +281,13 @@ struct StripTime {
 };
 StripTime time_strip(const PixelBounds& bounds, int stride, const FilesToWrite& files, const PictureSteps& steps) {
   Rendering strip = noise(bounds, stride, steps);
+  strip.threads = steps.threads;
   const Stopwatch since_start;
   strip.error = strip.result.film.error();
   if (steps.intervals && stride == 1) strip.intervals = pixel_intervals(strip.result.film);
   if (steps.denoise && stride == 1)
-    if (Result<DenoisedLayers> layers = denoise(strip.result.film, denoise_options(steps.layers, 0, steps.filter)))
+    if (Result<DenoisedLayers> layers =
+            denoise(strip.result.film, denoise_options(steps.layers, steps.threads, steps.filter)))
       strip.denoised = *std::move(layers);
   // Each earlier image takes as long as the image itself.
   const double denoising = strip.denoised ? strip.denoised->estimate.seconds : 0;
@@ -313,8 +315,9 @@ Status write_rendering(const std::filesystem::path& file, const Rendering& rende
 FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, PictureSteps steps) {
   // Without what happens once: libraries are loaded, memory is mapped.
   (void)time_strip({0, 0, 1, 1}, 1, files, steps);
-  // As many rows as an .exr packs together.
-  const PixelBounds strip{0, 0, bounds.width(), std::min(bounds.height(), 32)};
+  // As many rows as an .exr takes at once, of two threads at most: more of them would make long strips.
+  const int rows = std::min(exr_rows_together(steps.threads), exr_rows_together(2));
+  const PixelBounds strip{0, 0, bounds.width(), std::min(bounds.height(), rows)};
   const double strips = double(bounds.height()) / strip.height();
   const StripTime dense = time_strip(strip, 1, files, steps);
   const auto sparse = [&](int stride) {

@@ -120,6 +120,7 @@ struct Rendering {
   std::optional<DenoisedLayers> denoised{};     // if requested and possible
   std::optional<PixelIntervals> intervals{};    // likewise
   std::optional<AutomaticChoice> choice{};      // of the integrator, if none was stated
+  int threads = 0;                              // that write its files; 0: all of the machine
   // Whether a standard error of the mean is known: it takes two independent passes, and light.
   bool has_error_bar() const { return image.passes >= 2 && !found_no_light; }
   // Whether the error of the pixels is: it takes two passes of each, and light.
@@ -197,6 +198,7 @@ struct PictureSteps {
   std::size_t earlier_images = 0;  // of a sequence, which help to remove the noise
   std::optional<LayerPlan> layers = {};
   std::shared_ptr<const ColorFilter> filter = {};  // as DenoiseOptions has it
+  int threads = 0;                                 // 0: all of the machine
 };
 // Measured on a strip of noise, which takes some percent of that time itself.
 FinishTime seconds_to_finish(const PixelBounds& bounds, const FilesToWrite& files, PictureSteps steps = {});

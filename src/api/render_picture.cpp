@@ -151,7 +151,7 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
       *plan.seconds, before, since_start,
       seconds_to_finish(settings.image.bounds, plan.files,
                         {plan.denoise, plan.intervals, plan.denoises_sequence() ? SequenceDenoiser::max_earlier : 0,
-                         settings.image.layers, plan.filter}));
+                         settings.image.layers, plan.filter, settings.threads}));
   if (settings.begun) {
     time.announce_if_late(1, observer);
     settings.stop = time.limit();
@@ -253,6 +253,7 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
   }
   Rendering rendering =
       rendering_of(facts_of(parts, plan, settings), std::move(result), settings.plan, settings.target);
+  rendering.threads = settings.threads;
   if (plan.denoise && !plan.denoises_sequence()) {
     const auto without_noise = [&](const Film& of) -> Result<DenoisedLayers> {
       // A judge does not filter the layers of light.

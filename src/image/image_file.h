@@ -50,6 +50,7 @@ Result<Image> read_image(const std::filesystem::path& name, const std::string& b
 struct ExrOptions {
   std::vector<Attribute> attributes;
   std::vector<std::string> half_channels;
+  int threads = 1;  // that compress it; 0: all of the machine
 };
 
 // The bytes of a file with linear values, by the extension of path: .exr with every channel under its own name, .hdr
@@ -64,6 +65,8 @@ struct ImageRows {
   std::function<PixelBuffer(int first, int count)> rows;  // those rows, counted from the top
 };
 
+// So many rows are queried at a time.
+int exr_rows_together(int threads);
 // The bytes of an .exr, equal to those of the same picture in one buffer. Never throws; failures name the path.
 Result<std::string> encode_exr(const std::filesystem::path& path, const ImageRows& image,
                                const ExrOptions& options = {});

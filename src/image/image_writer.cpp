@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
 #include <bit>
@@ -16,6 +17,7 @@
 #include <cstring>
 #include <ctime>
 #include <functional>
+#include <thread>
 
 #include "image/direct_formats.h"
 #include "image/image_codec.h"
@@ -82,6 +84,8 @@ Imf::Header exr_header(int width, int height, const std::vector<std::string>& ch
   return header;
 }
 
+int threads_of(int stated) { return stated > 0 ? stated : std::max(int(std::thread::hardware_concurrency()), 1); }
+
 // Writes the rows of a picture that follow those that the file has.
 void append_rows(Imf::OutputFile& file, const PixelBuffer& rows, const ExrOptions& options) {
   // The library counts rows from the top of the picture.
@@ -110,11 +114,15 @@ void append_rows(Imf::OutputFile& file, const PixelBuffer& rows, const ExrOption
   file.writePixels(rows.height);
 }
 
-Result<std::string> encode_rows(const ImageRows& image, int rows_together, const ExrOptions& options) {
+Result<std::string> encode_rows(const ImageRows& image, const ExrOptions& options) {
   if (image.width <= 0 || image.height <= 0 || image.channels.empty()) return Failure{"the image is empty"};
   MemoryStream stream;
+  const int threads = threads_of(options.threads), rows_together = exr_rows_together(threads);
+  if (threads > 1) Imf::setGlobalThreadCount(threads);
   {
-    Imf::OutputFile file(stream, exr_header(image.width, image.height, image.channels, options));
+    // Of no thread beside the calling one, or of those.
+    Imf::OutputFile file(stream, exr_header(image.width, image.height, image.channels, options),
+                         threads > 1 ? threads : 0);
     for (int y = 0; y < image.height; y += rows_together)
       append_rows(file, image.rows(y, std::min(rows_together, image.height - y)), options);
   }  // the table of lines is written at its end
@@ -207,9 +215,10 @@ Result<std::string> encode_image(const std::filesystem::path& path, const PixelB
   return encode_for(path, [&] { return encode(image, lower_extension(path), options); });
 }
 
+int exr_rows_together(int threads) { return 32 * threads_of(threads); }  // each thread compresses 32 at once
+
 Result<std::string> encode_exr(const std::filesystem::path& path, const ImageRows& image, const ExrOptions& options) {
-  constexpr int rows_together = 32;  // as many as the compression takes at once
-  return encode_for(path, [&] { return encode_rows(image, rows_together, options); });
+  return encode_for(path, [&] { return encode_rows(image, options); });
 }
 
 Result<std::string> encode_image(const std::filesystem::path& path, const DisplayImage& image) {
