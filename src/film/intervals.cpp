@@ -26,6 +26,9 @@ constexpr double prior_freedom = 10, few_alike = 0.5;
 constexpr double own_freedom = 15;
 // The relative variance of the mean over the near neighbourhood from that over the wide one.
 constexpr double scale_heterogeneity = 0.3;
+// Of the squared difference of the brightness of both over its variance: half of it is believed there. A few rare
+// samples, which the near pixels may lack by chance, differ by their number at most.
+constexpr double sure_darkness = 128;
 // The least standard error of a pixel beside an emitter, in units of the emitter's: it may show a part of it that no
 // sample has hit.
 constexpr float beside_emitter = 0.2f;
@@ -118,7 +121,7 @@ std::vector<std::uint8_t> emitters_of(const FilmPlanes& planes) {
   return emitters;
 }
 
-// The means over blocks of pixels, without those of emitters.
+// The means over blocks of pixels, without those of emitters; `noise` is the variance of that of the brightness.
 Spreads blocks_of(const Spreads& s, const std::vector<std::uint8_t>& emitters) {
   Spreads blocks((s.width + block - 1) / block, (s.height + block - 1) / block);
   Plane count(blocks.size());
@@ -134,30 +137,35 @@ Spreads blocks_of(const Spreads& s, const std::vector<std::uint8_t>& emitters) {
       const std::size_t k = std::size_t(y / block) * std::size_t(blocks.width) + std::size_t(x / block);
       if (s.known[i] == 0 || emitters[i]) continue;
       each_plane(s, blocks, [&](const Plane& from, Plane& to) { to[k] += from[i]; });
+      blocks.brightness[k] += s.brightness[i], blocks.noise[k] += s.noise[i];
       blocks.object[k] = s.object[i], blocks.known[k] = 1, count[k] += 1;
     }
+  for (float& n : count) n = std::max(n, 1.0f);
   each_plane(blocks, blocks, [&](const Plane&, Plane& plane) {
-    for (std::size_t k = 0; k < plane.size(); ++k) plane[k] /= std::max(count[k], 1.0f);
+    for (std::size_t k = 0; k < plane.size(); ++k) plane[k] /= count[k];
   });
+  for (std::size_t k = 0; k < count.size(); ++k)
+    blocks.brightness[k] /= count[k], blocks.noise[k] /= count[k] * count[k];
   return blocks;
 }
 
 // Weighted means over the neighbours of each pixel, without itself.
 struct Pooled {
   ColorPlanes error, square;
-  Plane count;   // number of neighbours of equal weight with the same variance (Kish 1965); 0: none
-  Plane weight;  // of all neighbours
+  Plane brightness, noise;  // the mean brightness; its variance
+  Plane count;              // number of neighbours of equal weight with the same variance (Kish 1965); 0: none
+  Plane weight;             // of all neighbours
 };
 
 // Sums over the neighbours of a row of pixels.
 struct RowSums {
   ColorPlanes error, square;
-  Plane weight, weight_square;
+  Plane brightness, noise, weight, weight_square;
 
   explicit RowSums(std::size_t width) : width_(width) {}
   void clear() {
     for (std::size_t c = 0; c < rgb_size; ++c) error[c].assign(width_, 0.0f), square[c].assign(width_, 0.0f);
-    weight.assign(width_, 0.0f), weight_square.assign(width_, 0.0f);
+    for (Plane* plane : {&brightness, &noise, &weight, &weight_square}) plane->assign(width_, 0.0f);
   }
 
  private:
@@ -171,7 +179,9 @@ std::array<const float*, n> rows_at(const std::array<Plane, n>& planes, std::ptr
   return rows;
 }
 
-// Adds one neighbour to each pixel of a row. The inner loop has no branches, so that it runs in lanes.
+// Adds one neighbour to each pixel of a row. `compares`: it counts little where its brightness surely differs. The
+// inner loop has no branches, so that it runs in lanes.
+template <bool compares>
 void add_neighbour(const Spreads& s, int row, int dx, int dy, RowSums& sums) {
   const int x0 = std::max(0, -dx), x1 = std::min(s.width, s.width - dx);
   const std::ptrdiff_t own = std::ptrdiff_t(row) * s.width, other = own + std::ptrdiff_t(dy) * s.width + dx;
@@ -185,6 +195,7 @@ void add_neighbour(const Spreads& s, int row, int dx, int dy, RowSums& sums) {
   const float* known = s.known.data() + other;
   // No other pointer aliases the sums.
   float* __restrict weights = sums.weight.data(), * __restrict weight_squares = sums.weight_square.data();
+  float* __restrict lights = sums.brightness.data(), * __restrict noises = sums.noise.data();
   float *__restrict error0 = sums.error[0].data(), *__restrict error1 = sums.error[1].data(),
         *__restrict error2 = sums.error[2].data();
   float *__restrict square0 = sums.square[0].data(), *__restrict square1 = sums.square[1].data(),
@@ -198,26 +209,31 @@ void add_neighbour(const Spreads& s, int row, int dx, int dy, RowSums& sums) {
       const float a = albedo[c][x] - albedo_there[c][x], n = normal[c][x] - normal_there[c][x];
       albedos += a * a, normals += n * n;
     }
-    const float difference = brightness[x] - brightness_there[x];
-    const float sure = difference * difference / ((noise[x] + noise_there[x]) * sure_difference + 1e-30f);
-    const float w = likeness(near, albedos, normals, object[x] == object_there[x]) * known[x] / (1 + sure * sure);
+    float w = likeness(near, albedos, normals, object[x] == object_there[x]) * known[x];
+    if constexpr (compares) {
+      const float difference = brightness[x] - brightness_there[x];
+      const float sure = difference * difference / ((noise[x] + noise_there[x]) * sure_difference + 1e-30f);
+      w /= 1 + sure * sure;
+    }
     weights[x] += w, weight_squares[x] += w * w;
+    lights[x] += w * brightness_there[x], noises[x] += w * w * noise_there[x];
     error0[x] += w * error[0][x], error1[x] += w * error[1][x], error2[x] += w * error[2][x];
     square0[x] += w * square[0][x], square1[x] += w * square[1][x], square2[x] += w * square[2][x];
   }
 }
 
+template <bool compares>
 Pooled pooled_of(const Spreads& s) {
   Pooled pooled;
   for (ColorPlanes* planes : {&pooled.error, &pooled.square})
     for (Plane& plane : *planes) plane.resize(s.size());
-  pooled.count.resize(s.size()), pooled.weight.resize(s.size());
+  for (Plane* plane : {&pooled.brightness, &pooled.noise, &pooled.count, &pooled.weight}) plane->resize(s.size());
   RowSums sums{std::size_t(s.width)};
   for (int row = 0; row < s.height; ++row) {
     sums.clear();
     for (int dy = std::max(-reach, -row); dy <= std::min(reach, s.height - 1 - row); ++dy)
       for (int dx = -reach; dx <= reach; ++dx)
-        if ((dx != 0 || dy != 0) && std::abs(dx) < s.width) add_neighbour(s, row, dx, dy, sums);
+        if ((dx != 0 || dy != 0) && std::abs(dx) < s.width) add_neighbour<compares>(s, row, dx, dy, sums);
     for (std::size_t x = 0; x < std::size_t(s.width); ++x) {
       const float weight = sums.weight[x];
       if (weight <= 0 || sums.weight_square[x] <= 0) continue;
@@ -226,6 +242,7 @@ Pooled pooled_of(const Spreads& s) {
         pooled.error[c][i] = sums.error[c][x] / weight;
         pooled.square[c][i] = sums.square[c][x] / weight;
       }
+      pooled.brightness[i] = sums.brightness[x] / weight, pooled.noise[i] = sums.noise[x] / (weight * weight);
       pooled.count[i] = weight * weight / sums.weight_square[x], pooled.weight[i] = weight;
     }
   }
@@ -235,16 +252,27 @@ Pooled pooled_of(const Spreads& s) {
 // The relative variance of one of the pooled standard errors.
 double scatter_of(double mean, double square) { return mean > 0 ? std::max(square / (mean * mean) - 1, 0.0) : 0; }
 
+// What the standard errors of the wide neighbourhood are multiplied by where the near one is surely darker, as beside a
+// highlight: the root of the ratio of their brightness, as if both had the same kind of samples at different rates.
+double darkness_around(const Pooled& near, std::size_t i, const Pooled& wide, std::size_t k) {
+  const double own = std::max(double(near.brightness[i]), 0.0), other = double(wide.brightness[k]);
+  if (!(own < other)) return 1;
+  const double variance = double(near.noise[i]) + double(wide.noise[k]);
+  const double sure = (other - own) * (other - own) / (variance * sure_darkness + 1e-30);
+  return std::pow(own / other, 0.5 * sure * sure / (1 + sure * sure));
+}
+
 // The standard error that the neighbours of a pixel have: the mean over the near ones, shrunk toward that over the wide
-// neighbourhood by the share of its variance that is noise.
-double error_around(const Pooled& near, std::size_t i, const Pooled& wide, std::size_t k, std::size_t c) {
+// neighbourhood by the share of its variance that is noise. `darkness`: as above.
+double error_around(const Pooled& near, std::size_t i, const Pooled& wide, std::size_t k, double darkness,
+                    std::size_t c) {
   const double n = double(near.count[i]), wide_n = double(wide.count[k]) * block * block;
   const double own = double(near.error[c][i]), other = double(wide.error[c][k]);
   if (wide_n <= 0) return own;
   const double scatter = scatter_of(other, double(wide.square[c][k]));
   const double noise = std::max(scatter, scatter_of(own, double(near.square[c][i]))) / n;
   const double share = noise / (noise + scatter / wide_n + scale_heterogeneity);
-  return own + share * (other - own);
+  return own + share * (darkness * other - own);
 }
 
 // At each pixel the largest standard error of the emitters that the 3 x 3 pixels around it show.
@@ -296,7 +324,7 @@ PixelIntervals pixel_intervals(const FilmPlanes& planes, double confidence) {
   const Spreads spreads = spreads_of(planes);
   const std::vector<std::uint8_t> emitters = emitters_of(planes);
   const Spreads blocks = blocks_of(spreads, emitters);
-  const Pooled near = pooled_of(spreads), wide = pooled_of(blocks);
+  const Pooled near = pooled_of<true>(spreads), wide = pooled_of<false>(blocks);
   const std::vector<std::uint8_t> known_covers = known_covers_of(planes);
   const Plane lamps = lamps_around(planes, emitters, known_covers);
   ColorPlanes beside, contrast;
@@ -319,10 +347,11 @@ PixelIntervals pixel_intervals(const FilmPlanes& planes, double confidence) {
       const double weight = spreads.known[i] > 0 ? double(near.weight[i]) : 0;
       double prior = prior_freedom * weight / (weight + few_alike);
       const double quantile = quantiles(freedom, prior);
+      const double darkness = weight > 0 ? darkness_around(near, i, wide, k) : 1;
       const double uncertain_cover = -spread_samples * std::log(1 - confidence) / double(planes.emission_rays[i]);
       for (std::size_t c = 0; c < rgb_size; ++c) {
         double around = 0;
-        if (weight > 0) around = emitters[i] ? double(near.error[c][i]) : error_around(near, i, wide, k, c);
+        if (weight > 0) around = emitters[i] ? double(near.error[c][i]) : error_around(near, i, wide, k, darkness, c);
         if (!known_covers[i]) around = std::max(around, double(beside_emitter * beside[c][i]));
         const double variance = (prior * around * around + freedom * double(planes.variance[c][i])) / (prior + freedom);
         const double mean = double(planes.mean[c][i]);

@@ -24,9 +24,9 @@ struct PixelIntervals {
 // Gelman et al., Bayesian Data Analysis, 2.6; Smyth 2004). That of the neighbours is the mean of their standard errors,
 // not the root of the mean of their variances, which a bright sample that one pixel of a thousand has would determine.
 // Pixels whose means surely differ count little. Where the standard errors around the pixel scatter so much that their
-// mean is not known, it shrinks in turn toward the mean over a wider neighbourhood. At the edge of a lamp the samples
-// of a pixel may all hit the lamp, or none: the half-width is at least what the part of the pixel is worth that they
-// may have missed.
+// mean is not known, it shrinks in turn toward the mean over a wider neighbourhood, less where that is surely brighter.
+// At the edge of a lamp the samples of a pixel may all hit the lamp, or none: the half-width is at least what the part
+// of the pixel is worth that they may have missed.
 //
 PixelIntervals pixel_intervals(const FilmPlanes& planes, double confidence = default_confidence);
 // Requires a film without stride.
