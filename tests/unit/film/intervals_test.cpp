@@ -137,6 +137,17 @@ Law wide_lamp(int x, int) {
   return {0.05f, 0.3f, lamp || x % 12 == 3 || x % 12 == 8 ? 30.0f : 0.0f, lamp ? 1.0 : 1.0 / 7, 1, true};
 }
 
+// A highlight of few pixels, whose samples are bright or not, on a dark surface.
+Law highlight(int x, int y) {
+  const bool bright = std::abs(x - side / 2) < 3 && std::abs(y - side / 2) < 3;
+  return bright ? Law{5, 0.3f, 40, 0.5, 1} : Law{0.02f};
+}
+// The pixels of the wide neighbourhood, without those beside it.
+bool near_highlight(int x, int y) {
+  const int distance = std::max(std::abs(x - side / 2), std::abs(y - side / 2));
+  return distance > 6 && distance < 15;
+}
+
 }  // namespace
 
 TEST(PixelIntervals, contain_the_expectation_with_their_probability) {
@@ -167,6 +178,21 @@ TEST(PixelIntervals, keep_to_the_pixel_at_the_edge_of_a_shadow) {
     EXPECT_LT(c.share, 0.985);
     EXPECT_LT(c.width, 1.3);
   }
+}
+
+// Without regard to the brightness of both, their intervals are 79 times as wide as those of the oracle.
+TEST(PixelIntervals, are_less_wide_near_a_highlight_that_is_surely_brighter) {
+  const Coverage c = coverage_of(highlight, near_highlight);
+  EXPECT_GT(c.share, 0.94);
+  EXPECT_LT(c.width, 30);
+}
+
+// Rare samples make the light of the dark side, which is as if it had fewer samples of the other one's kind.
+TEST(PixelIntervals, know_of_rare_bright_samples_beside_what_is_brighter) {
+  const auto law = [](int x, int) { return x < side / 2 ? Law{0.1f, 0.3f, 4, 0.08, 1} : Law{0.5f, 0.3f, 4, 0.5, 1}; };
+  const Coverage c = coverage_of(law, [](int x, int) { return x < side / 2 && x >= side / 2 - 12; });
+  EXPECT_GT(c.share, 0.93);
+  EXPECT_LT(c.share, 0.985);
 }
 
 TEST(PixelIntervals, keep_to_the_pixels_of_the_same_object) {
