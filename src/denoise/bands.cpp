@@ -9,10 +9,10 @@ namespace montelux {
 
 namespace {
 
-// The rows around a band that determine its colours: the choices of neighbours, their errors and brightness are means
-// over as many pixels, and the filters of all of them reach so far, with the patches and the variances that they
+// The rows around a band that determine its colours: the choices of neighbours, their bias, errors and brightness are
+// means over as many pixels, and the filters of all of them reach so far, with the patches and the variances that they
 // compare.
-constexpr int margin = 10 + 4 + 1 + 10 + filter_reach + 1 + 2;
+constexpr int margin = 10 + 16 + 4 + 1 + filter_reach + 1 + 2;
 
 Plane rows_of(const Plane& plane, int width, const RowRange& rows) {
   if (plane.empty()) return {};

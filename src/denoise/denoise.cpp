@@ -43,6 +43,10 @@ namespace {
 constexpr int choice_reach = 4;  // pixels over which estimated errors are averaged to choose a filter
 constexpr int choice_spread =
     10;  // pixels over which the choices are averaged: neighbours share what the estimates say
+// What a filter blurs shows more than noise of the same squared error. So the bias of a candidate counts more, by the
+// square of its ratio to the noise of the image, both over so many pixels, times `bias_weight`, at most `max_bias`.
+constexpr float bias_weight = 12, max_bias = 1.2f;
+constexpr int bias_reach = 16;
 // What neighbours choose counts in full up to this multiple of the least error at the pixel.
 constexpr float choice_tolerance = 3;
 // A pixel is beside a lamp if, as near as the filter reaches, an emitter that the camera sees is brighter by this
@@ -131,6 +135,20 @@ class Denoiser {
     return float(sum / rgb_size * double(relative_[i]));
   }
 
+  // The part of it that is noise, at most: no pixel counts more in a filter than the pixel itself, whose share is the
+  // greatest that the squares of all shares sum to.
+  float noise_of(std::size_t k, std::size_t i) const {
+    const bool is_mean = k >= filters_ && k != unfiltered_;
+    double sum = 0;
+    for (std::size_t c = 0; c < rgb_size; ++c) {
+      const Noisy n = noisy(c, i);
+      const Filtered f = candidate(is_mean ? k - filters_ : k, c, i);
+      const double own = n.share * f.own_first + (1 - n.share) * f.own_second;
+      sum += n.variance * (is_mean ? (1 + 3 * own) / 4 : own);  // of the mean of both: their covariance is `own`, too
+    }
+    return float(sum / rgb_size * double(relative_[i]));
+  }
+
   // Relative errors are divided by the square of the first filter's result, the mean over 3 x 3 pixels.
   void find_scale() {
     Plane gray(image_.pixels());
@@ -175,12 +193,17 @@ class Denoiser {
   void choose() {
     const int w = image_.width, h = image_.height;
     const std::size_t candidates = unfiltered_ + 1;
-    std::vector<Plane> errors(candidates), shares(candidates);  // of each candidate, around each pixel
-    for_each_unit(candidates, settings_, [&](std::size_t k) {
+    std::vector<Plane> errors(candidates), noises(candidates), shares(candidates);  // of each, around each pixel
+    for_each_unit(2 * candidates, settings_, [&](std::size_t unit) {
+      const std::size_t k = unit / 2;
+      const bool of_noise = unit % 2 == 1;
       Plane error(image_.pixels());
-      for (std::size_t i = 0; i < error.size(); ++i) error[i] = has_halves(i) ? error_of(k, i) : 0;
-      errors[k] = box_mean(error, w, h, choice_reach);
+      for (std::size_t i = 0; i < error.size(); ++i)
+        if (has_halves(i)) error[i] = of_noise ? noise_of(k, i) : error_of(k, i);
+      (of_noise ? noises : errors)[k] = box_mean(error, w, h, choice_reach);
     });
+    const Plane noise_around = box_mean(noises[unfiltered_], w, h, bias_reach);
+    for_each_unit(unfiltered_, settings_, [&](std::size_t k) { weigh_bias(noises[k], noise_around, errors[k]); });
     std::vector<std::uint8_t> choice(image_.pixels(), std::uint8_t(unfiltered_));
     for_each_pixel_in_parallel(image_.pixels(), settings_, [&](std::size_t i) {
       float least = std::numeric_limits<float>::infinity();
@@ -200,6 +223,18 @@ class Denoiser {
       }
       add_choice(choice[i], i, own_choice);
     });
+  }
+  // `noise`: of the candidate; `noise_around`: of the unfiltered image.
+  void weigh_bias(const Plane& noise, const Plane& noise_around, Plane& error) const {
+    Plane bias(error.size());
+    for (std::size_t i = 0; i < bias.size(); ++i) bias[i] = error[i] - noise[i];
+    const Plane bias_around = box_mean(bias, image_.width, image_.height, bias_reach);
+    for (std::size_t i = 0; i < bias.size(); ++i) {
+      // The lesser of both: one of few pixels is as noisy as the image.
+      const float sure = std::min(bias[i], bias_around[i]);
+      if (sure <= 0 || noise_around[i] <= 0) continue;
+      error[i] += sure * std::min(bias_weight * square(bias_around[i] / noise_around[i]), max_bias);
+    }
   }
   // The share of the pixels around each pixel that choose a candidate.
   Plane shares_around(const std::vector<std::uint8_t>& choice, std::size_t candidate) const {

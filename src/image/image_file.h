@@ -35,7 +35,7 @@ struct Image {
 };
 
 // The most samples (pixels times channels) that a file may hold.
-inline constexpr std::size_t largest_sample_count = std::size_t(1) << 29;
+inline constexpr std::size_t largest_sample_count = std::size_t(1) << 30;
 
 // Reads any image file. Without an encoding, integers are taken as sRGB and floating-point samples as linear; alpha is
 // always linear and is not multiplied into the colour. All parts of a multi-part EXR whose size is that of the first

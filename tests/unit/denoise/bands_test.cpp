@@ -70,7 +70,7 @@ TEST(DenoiseInBands, has_the_colours_and_errors_of_the_whole_image) {
                                          }},
                                         settings);
     EXPECT_EQ(rows.size(), 4u);
-    EXPECT_LT(*std::ranges::max_element(rows), 60 + 2 * 40);
+    EXPECT_LT(*std::ranges::max_element(rows), 60 + 2 * 45);
     EXPECT_LT(largest_difference(bands.color, whole.color), 1e-5f);
     ASSERT_EQ(bands.layers.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) {

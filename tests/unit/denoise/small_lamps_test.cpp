@@ -162,7 +162,7 @@ TEST(SmallLamps, have_their_noise_in_the_stated_error) {
 // Planted: without the emission of the other image. The choice of filters leaves little of that fault: it shows where
 // the lamp is bright.
 TEST(SmallLamps, of_other_images_are_not_spread) {
-  constexpr double lamp = 50000;
+  constexpr double lamp = 500000;
   double seen = 0, planted = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
     const NoisyImage image = made(seed, lamp), other = made(seed + 50, lamp, coverage_of_speck), fault = blind(other);
