@@ -60,7 +60,9 @@ NoisyImage rows_of(const NoisyImage& image, const RowRange& rows) {
 
 DenoisedImage denoise(const NoisyRows& image, const DenoiseSettings& settings) {
   const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
-  const int bands = settings.filter ? 1 : int((pixels + settings.max_band - 1) / settings.max_band);
+  // A band is not lower than the rows around it.
+  const std::size_t most = std::max(image.height / margin, 1);
+  const int bands = settings.filter ? 1 : int(std::min((pixels + settings.max_band - 1) / settings.max_band, most));
   if (bands <= 1) return denoise(image.rows({0, image.height}), settings);
   DenoisedImage result{color_planes(pixels), color_planes(pixels), {}, {}};
   for (int k = 0; k < bands; ++k) {

@@ -136,11 +136,10 @@ struct DenoiseSettings {
 // the other half. It takes no other images; what it throws is passed on.
 DenoisedImage denoise(const NoisyImage& image, const DenoiseSettings& settings = {});
 
-// The same of an image in bands of rows, so that what the filter stores is bounded. Each is
-// filtered with as many rows around it as determine its colours, which are those of the whole image, up to rounding.
-// What is known of the image as a whole (how far pixels share their noise, how often few bright samples are a detail)
-// is known of each band by itself, so that errors are stated a little differently. Another filter than ours sees the
-// whole image.
+// The same of an image in bands of rows, so that what the filter stores is bounded. Each is filtered with as many rows
+// around it as determine its colours, which are those of the whole image, up to rounding. What is known of the image as
+// a whole (how far pixels share their noise, how often few bright samples are a detail) is known of each band by
+// itself, so that errors are stated a little differently. Another filter than ours sees the whole image.
 DenoisedImage denoise(const NoisyRows& image, const DenoiseSettings& settings = {});
 
 }  // namespace montelux

@@ -50,7 +50,7 @@ Result<Image> read_image(const std::filesystem::path& name, const std::string& b
 struct ExrOptions {
   std::vector<Attribute> attributes;
   std::vector<std::string> half_channels;
-  int threads = 1;  // that compress it; 0: all of the machine
+  int threads = 1;  // that compress it, at most; 0: all of the machine
 };
 
 // The bytes of a file with linear values, by the extension of path: .exr with every channel under its own name, .hdr

@@ -84,7 +84,12 @@ Imf::Header exr_header(int width, int height, const std::vector<std::string>& ch
   return header;
 }
 
-int threads_of(int stated) { return stated > 0 ? stated : std::max(int(std::thread::hardware_concurrency()), 1); }
+// For each of them the library stores rows that wait to be compressed, and rows that are.
+int threads_of(int stated) {
+  constexpr int max_threads = 8;
+  const int threads = stated > 0 ? stated : int(std::thread::hardware_concurrency());
+  return std::clamp(threads, 1, max_threads);
+}
 
 // Writes the rows of a picture that follow those that the file has.
 void append_rows(Imf::OutputFile& file, const PixelBuffer& rows, const ExrOptions& options) {
