@@ -2,17 +2,12 @@
 #include <algorithm>
 #include <vector>
 
+#include "denoise/choice.h"
 #include "denoise/denoise.h"
-#include "denoise/weighted_sums.h"
 
 namespace montelux {
 
 namespace {
-
-// The rows around a band that determine its colours: the choices of neighbours, their bias, errors and brightness are
-// means over as many pixels, and the filters of all of them reach so far, with the patches and the variances that they
-// compare.
-constexpr int margin = 10 + 16 + 4 + 1 + filter_reach + 1 + 2;
 
 Plane rows_of(const Plane& plane, int width, const RowRange& rows) {
   if (plane.empty()) return {};
@@ -61,15 +56,15 @@ NoisyImage rows_of(const NoisyImage& image, const RowRange& rows) {
 DenoisedImage denoise(const NoisyRows& image, const DenoiseSettings& settings) {
   const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
   // A band is not lower than the rows around it.
-  const std::size_t most = std::max(image.height / margin, 1);
+  const std::size_t most = std::max(image.height / reach_of_colors, 1);
   const int bands = settings.filter ? 1 : int(std::min((pixels + settings.max_band - 1) / settings.max_band, most));
   if (bands <= 1) return denoise(image.rows({0, image.height}), settings);
   DenoisedImage result{color_planes(pixels), color_planes(pixels), {}, {}};
   for (int k = 0; k < bands; ++k) {
     const auto row_of = [&](int b) { return int(std::int64_t(image.height) * b / bands); };
     const RowRange band{row_of(k), row_of(k + 1) - row_of(k)};
-    const int first = std::max(band.first - margin, 0);
-    const RowRange rows{first, std::min(band.end() + margin, image.height) - first};
+    const int first = std::max(band.first - reach_of_colors, 0);
+    const RowRange rows{first, std::min(band.end() + reach_of_colors, image.height) - first};
     std::vector<NoisyImage> others;
     for (const NoisyImage& other : settings.others) others.push_back(rows_of(other, rows));
     DenoiseSettings of_band = settings;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "denoise/box_mean.h"
+#include "denoise/choice.h"
 #include "denoise/color_filter.h"
 #include "denoise/filter_error.h"
 #include "denoise/relative_scale.h"
@@ -40,13 +41,9 @@ NoisyImage::NoisyImage(int w, int h) : width(w), height(h), halves{HalfPlanes(pi
 
 namespace {
 
-constexpr int choice_reach = 4;  // pixels over which estimated errors are averaged to choose a filter
-constexpr int choice_spread =
-    10;  // pixels over which the choices are averaged: neighbours share what the estimates say
 // What a filter blurs shows more than noise of the same squared error. So the bias of a candidate counts more, by the
 // square of its ratio to the noise of the image, both over so many pixels, times `bias_weight`, at most `max_bias`.
 constexpr float bias_weight = 12, max_bias = 1.2f;
-constexpr int bias_reach = 16;
 // What neighbours choose counts in full up to this multiple of the least error at the pixel.
 constexpr float choice_tolerance = 3;
 // A pixel is beside a lamp if, as near as the filter reaches, an emitter that the camera sees is brighter by this

@@ -27,7 +27,6 @@ struct PixelIntervals {
 // mean is not known, it shrinks in turn toward the mean over a wider neighbourhood, less where that is surely brighter.
 // At the edge of a lamp the samples of a pixel may all hit the lamp, or none: the half-width is at least what the part
 // of the pixel is worth that they may have missed.
-//
 PixelIntervals pixel_intervals(const FilmPlanes& planes, double confidence = default_confidence);
 // Requires a film without stride.
 PixelIntervals pixel_intervals(const Film& film, double confidence = default_confidence);
