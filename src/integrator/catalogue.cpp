@@ -145,7 +145,9 @@ Result<ChosenIntegrator> choose_integrator(const ChoiceText& choice, const Integ
   if (!read) return read.failure();
   const auto& [entry, list] = *read;
 
-  if (!scene.media.empty() && !entry->can(Ability::media))
+  const bool crosses = scene.media.empty() || entry->can(Ability::media) ||
+                       (entry->can(Ability::absorption) && !scene.has_participating_media());
+  if (!crosses)
     return Failure{fmt::format("the scene has participating media, which {} cannot cross; {} can", entry->spec.name,
                                listed(integrators_with(Ability::media)))};
 

@@ -27,6 +27,8 @@ enum class Ability : std::uint32_t {
   shared_samples = 8,
   strategies = 16,  // its layers may be those of bidirectional strategies
   mergings = 32,    // which may merge vertices
+  absorption =
+      64,  // where the scene's media do not participate (Scene::has_participating_media), heed what they absorb
 };
 constexpr std::uint32_t bits_of(std::initializer_list<Ability> abilities) {
   std::uint32_t bits = 0;

@@ -205,6 +205,7 @@ void GeometryBuilder::add_shape(const ShapeDesc& shape, bool in_world) {
   if (media) {
     row.flags |= GeometryRow::bounds_media, row.inside = media->inside, row.outside = media->outside;
     store_.bounds_media = true;
+    store_.has_open_boundaries = store_.has_open_boundaries || interface || partly_interface;
   }
   if (interface) row.flags |= GeometryRow::invisible_to_shadow_rays;
   if (partly_interface) row.flags |= GeometryRow::open_to_some_shadow_rays;

@@ -78,6 +78,8 @@ struct GeometryStore {
   std::vector<KeyRange> instance_motion;  // of each instance; empty if none moves
   bool deforms = false;                   // some mesh has more than one pose
   bool bounds_media = false;              // some surface has different media on its sides
+  // Some of these surfaces are interfaces, everywhere or in part: rays, also shadow rays, pass straight through them.
+  bool has_open_boundaries = false;
 
   bool moves() const { return deforms || !instance_keys.empty(); }
   // Whether any surface exists for some rays and not for others.

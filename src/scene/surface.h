@@ -19,6 +19,15 @@ struct SurfaceHit {
   Uint<F> inside, outside;
 };
 
+// Whether the surface is an interface, everywhere or in part. Lanes without a hit have the number of any geometry.
+template <class F>
+MONTELUX_INLINE Mask<F> may_be_interface(const GeometryStore& store, const Hit<F>& hit) {
+  constexpr std::uint32_t words = sizeof(GeometryRow) / sizeof(std::uint32_t);
+  const Uint<F> flags = gather(&store.rows.data()->flags, hit.geometry * Uint<F>(words));
+  return (flags & Uint<F>(GeometryRow::invisible_to_shadow_rays | GeometryRow::open_to_some_shadow_rays)) !=
+         Uint<F>(0u);
+}
+
 // The surface where rays hit the scene, at their time.
 template <class F>
 SurfaceHit<F> surface(const GeometryStore& store, const Ray<F>& ray, const Hit<F>& hit, Mask<F> on);

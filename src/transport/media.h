@@ -14,7 +14,7 @@ namespace montelux {
 template <class F>
 struct Media {
   Spectrum<F> here, around;
-  Uint<F> medium;  // number in the scene's MediumSet; 0: empty space, or a body of glass that only absorbs
+  Uint<F> medium;  // number in the scene's MediumSet; 0: empty space, or a body of glass whose material absorbs
 
   // Transmittance along a segment of this length (Beer and Lambert's law).
   MONTELUX_INLINE Spectrum<F> left(F distance) const {

@@ -164,14 +164,16 @@ MONTELUX_INLINE SegmentEnd<F> end_segment(const Scene& scene, RayProgress<F>& wa
       if (media.emits()) lights.medium(way.left * media.emitted<F>(medium, segment.hit.t), rays.found);
     const Spectrum<F> throughput = distances.throughput * way.left;
     if constexpr (requires { distances.segments; }) distances.segments.begin(segment, throughput, rays.found, random);
-    const DistanceSample<F> sampled = media.sample_distance<F>(
-        medium, throughput, segment.hit.t,
-        distances.numbers.get2(distances.first + way.crossings * U(path_dimension::per_crossing)));
-    way.left = select(rays.found, way.left * sampled.weight, way.left);
-    at.in_medium = rays.found & sampled.is_event, at.on_surface = at.on_surface & !at.in_medium;
-    at.distance = sampled.distance;
-    const F length = select(sampled.is_event, sampled.distance, segment.hit.t);
-    way.passing = select(rays.found, way.passing * media.mean_passing<F>(medium, length), way.passing);
+    if (any(rays.found & (medium != U(empty_space)))) {
+      const DistanceSample<F> sampled = media.sample_distance<F>(
+          medium, throughput, segment.hit.t,
+          distances.numbers.get2(distances.first + way.crossings * U(path_dimension::per_crossing)));
+      way.left = select(rays.found, way.left * sampled.weight, way.left);
+      at.in_medium = rays.found & sampled.is_event, at.on_surface = at.on_surface & !at.in_medium;
+      at.distance = sampled.distance;
+      const F length = select(sampled.is_event, sampled.distance, segment.hit.t);
+      way.passing = select(rays.found, way.passing * media.mean_passing<F>(medium, length), way.passing);
+    }
     if (const Mask<F> escapes = rays.found & !at.on_surface & !at.in_medium; any(escapes))
       lights.sky(SkyOnRay<F>{way.left * left_along(segment.media, F(ray_infinity)), way.passing, way.crossings},
                  escapes);

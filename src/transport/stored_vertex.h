@@ -36,7 +36,8 @@ struct StoredVertex : StoredSurface<F> {
   Vec3<F> light_normal;  // as SurfaceScattering has it
   Vec3<F> wo;            // local
   F time;                // of the whole path
-  Media<F> media;        // along wo
+  Media<F> media;        // on the side of wo
+  Media<F> beyond;       // on the other side
 
   // f |cos| toward a unit direction of the world, and its density.
   BsdfValue<F> scattered(const Vec3<F>& wi, Mask<F> on) const { return this->scattered_from_local(wo, wi, on); }
@@ -46,7 +47,9 @@ struct StoredVertex : StoredSurface<F> {
     return sample<F>(BsdfLanes<F>{this->kind, &this->slots, on}, wo, u3, context);
   }
   Media<F> media_toward(const Vec3<F>& wi) const {
-    return MediaAt<F>(media, -this->frame.to_world(wo), this->boundary()).toward(wi);
+    const Vec3<F> outward = face_forward(this->ng, this->frame.n);
+    const Mask<F> is_inside = dot(outward, this->frame.to_world(wo)) < F(0.0f);
+    return select_media<F>((dot(outward, wi) < F(0.0f)) ^ is_inside, beyond, media);
   }
   ReferencePoint<F> reference_toward(const Vec3<F>& wi) const { return {this->p, light_normal, media_toward(wi)}; }
   Vec3<F> origin_toward(const Vec3<F>& wi) const { return offset_origin(this->p, p_error, this->ng, wi); }
@@ -75,7 +78,8 @@ StoredVertex<F> stored(const Vertex<F>& v) {
           v.bsdf.light_normal,
           v.wo,
           v.time,
-          v.media.along_wo()};
+          v.media.toward(-v.d),
+          v.media.toward(v.d)};
 }
 
 }  // namespace montelux

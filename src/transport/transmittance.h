@@ -5,6 +5,7 @@
 #include "mc/random.h"
 #include "scene/scene.h"
 #include "transport/vertex.h"
+#include "transport/visibility.h"
 
 namespace montelux {
 
@@ -24,10 +25,16 @@ Transmitted<F> transmitted(const Scene& scene, const Rays& rays, const Ray<F>& t
                            RandomStream<F> random, std::uint64_t& traced, RayUse first_use = RayUse::path) {
   Spectrum<F> left = select(on, gray(F(1.0f)), gray(F(0.0f)));
   F passing(1.0f);
+  F length = to.t_max * (1.0f / (1.0f - shadow_shortening));  // media fill the whole way, which the rays do not go
+  // If every boundary of media scatters, one medium fills the way.
+  if (!scene.geometry.has_open_boundaries && first_use == RayUse::path) {
+    const Mask<F> open = unblocked<F>(rays, to, on, traced);
+    if constexpr (with_passing) passing = select(open, scene.media.mean_passing<F>(media.medium, length), passing);
+    return {select(open, media.left(length), gray(F(0.0f))), passing};
+  }
   RayUse use = first_use;
   Segment<F> segment{to, {}, media};
   Uint<F> crossings(0u);
-  F length = to.t_max * (1.0f / (1.0f - shadow_shortening));  // media fill the whole way, which the rays do not go
   for (Mask<F> open = on; any(open);) {
     traced += std::uint64_t(count(open));
     const auto [found, hit] = rays.template trace<F>(segment.ray, open, std::exchange(use, RayUse::path));
@@ -37,6 +44,10 @@ Transmitted<F> transmitted(const Scene& scene, const Rays& rays, const Ray<F>& t
       passing = select(open, passing * scene.media.mean_passing<F>(segment.media.medium, way), passing);
     open = open & found & (max_component(left) > F(0.0f));
     left = select(found & !open, gray(F(0.0f)), left);
+    // Most surfaces scatter, whatever their BSDF.
+    const Mask<F> may_pass = open & may_be_interface(scene.geometry, hit);
+    left = select(open & !may_pass, gray(F(0.0f)), left);
+    open = may_pass;
     if (!any(open)) break;
     segment.hit = hit;
     const Vertex<F> v(scene, segment, {open, open}, {TransportMode::radiance, random.fork(crossings)});

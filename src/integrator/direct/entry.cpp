@@ -30,7 +30,8 @@ Result<ChosenIntegrator> make_direct(const IntegratorRequest& r) {
 }  // namespace
 
 IntegratorEntry direct_entry() {
-  return {direct_spec(), make_direct, LightSearch::one_event, Content::light, bits_of({Ability::layers})};
+  return {direct_spec(), make_direct, LightSearch::one_event, Content::light,
+          bits_of({Ability::layers, Ability::absorption})};
 }
 
 }  // namespace montelux

@@ -19,7 +19,8 @@ Result<ChosenIntegrator> make_distribution(const IntegratorRequest& r) {
 }  // namespace
 
 IntegratorEntry distribution_entry() {
-  return {distribution_spec(), make_distribution, LightSearch::any_length, Content::light, bits_of({Ability::layers})};
+  return {distribution_spec(), make_distribution, LightSearch::any_length, Content::light,
+          bits_of({Ability::layers, Ability::absorption})};
 }
 
 }  // namespace montelux

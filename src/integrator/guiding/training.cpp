@@ -11,7 +11,7 @@ RayCounts trace_guided_paths(const Scene& scene, const LightSet& lights, const A
                              const PathSettings& settings, const TilePass& pass, std::span<PixelSample> out,
                              Tally& tally) {
   const FieldGuide guide{*settings.guide};
-  const bool one = settings.lanes == Lanes::one, media = !scene.media.empty();
+  const bool one = settings.lanes == Lanes::one, media = scene.has_participating_media();
   if (media && one) return trace_paths<float, true>(scene, lights, rays, settings, pass, out, tally, guide);
   if (media) return trace_paths<NativeFloats, true>(scene, lights, rays, settings, pass, out, tally, guide);
   if (one) return trace_paths<float>(scene, lights, rays, settings, pass, out, tally, guide);

@@ -26,7 +26,7 @@ std::vector<IntegratorEntry> look_entries() {
   const std::vector<EntitySpec> specs = look_specs();
   std::vector<IntegratorEntry> entries;
   for (std::size_t i = 0; i < specs.size(); ++i)
-    entries.push_back({specs[i], looks[i], LightSearch::none, contents[i]});
+    entries.push_back({specs[i], looks[i], LightSearch::none, contents[i], bits_of({Ability::absorption})});
   return entries;
 }
 

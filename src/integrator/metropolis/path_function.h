@@ -65,8 +65,9 @@ class PathFunction {
   template <class Tally>
   RayCounts trace(const GivenStart<F>& start, std::span<PixelSample> out, Tally& tally) const {
     GivenPaths<F, Rays, Tally> paths(scene_, rays_, start, out, tally);
-    return scene_.media.empty() ? run_paths<F>(scene_, scene_.lights, rays_, settings_, pass_, out, paths, tally)
-                                : run_paths<F, true>(scene_, scene_.lights, rays_, settings_, pass_, out, paths, tally);
+    return scene_.has_participating_media()
+               ? run_paths<F, true>(scene_, scene_.lights, rays_, settings_, pass_, out, paths, tally)
+               : run_paths<F>(scene_, scene_.lights, rays_, settings_, pass_, out, paths, tally);
   }
 
   const Scene& scene_;

@@ -12,7 +12,7 @@ Result<ChosenIntegrator> make_path(const IntegratorRequest& r) {
   auto settings = path_settings(r.list, r.max_depth);
   if (!settings) return settings.failure();
   if (naive) settings->nee = false;
-  if (settings->manifold > 0 && !r.scene.media.empty())
+  if (settings->manifold > 0 && r.scene.has_participating_media())
     return Failure{"the scene has participating media, through which manifold does not look for light (manifold=off)"};
   settings->width = r.defaults.width, settings->height = r.defaults.height;
   ChosenIntegrator chosen =

@@ -14,7 +14,7 @@ std::optional<TracedPath> PathTracer::trace_path(const TilePass& pass) const {
     trace_paths<float, in_media()>(scene_, lights(), accel_, settings_, pass, out, recorder, guide);
   };
   const auto trace_with = [&](const auto& guide) {
-    scene_.media.empty() ? trace(std::false_type{}, guide) : trace(std::true_type{}, guide);
+    scene_.has_participating_media() ? trace(std::true_type{}, guide) : trace(std::false_type{}, guide);
   };
   settings_.guide ? trace_with(FieldGuide{*settings_.guide}) : trace_with(NoGuide{});
   TracedPath path = std::move(recorder).take();

@@ -72,7 +72,8 @@ SurvivalMap PathTracer::run_pilot() const {
 template <class Tally>
 RayCounts PathTracer::trace_with(const TilePass& pass, std::span<PixelSample> out, Tally& tally) const {
   if (settings_.guide) return trace_guided_paths(scene_, lights(), accel_, settings_, pass, out, tally);
-  if (!scene_.media.empty()) return trace_paths_in_media(scene_, lights(), accel_, settings_, pass, out, tally);
+  if (scene_.has_participating_media())
+    return trace_paths_in_media(scene_, lights(), accel_, settings_, pass, out, tally);
   return settings_.lanes == Lanes::one
              ? trace_paths<float>(scene_, lights(), accel_, settings_, pass, out, tally)
              : trace_paths<NativeFloats>(scene_, lights(), accel_, settings_, pass, out, tally);

@@ -36,7 +36,7 @@ Result<ChosenIntegrator> make_restir(const IntegratorRequest& r) {
 
 constexpr char restir_di[] = "restir-di", restir_gi[] = "restir-gi", restir_pt[] = "restir-pt";
 
-constexpr std::uint32_t shared_samples = bits_of({Ability::shared_samples});
+constexpr std::uint32_t shared_samples = bits_of({Ability::shared_samples, Ability::absorption});
 
 }  // namespace
 

@@ -24,6 +24,8 @@ Result<ChosenIntegrator> make_tracepath(const IntegratorRequest& r) {
 
 }  // namespace
 
-IntegratorEntry tracepath_entry() { return {tracepath_spec(), make_tracepath}; }
+IntegratorEntry tracepath_entry() {
+  return {tracepath_spec(), make_tracepath, LightSearch::any_length, Content::light, bits_of({Ability::absorption})};
+}
 
 }  // namespace montelux

@@ -236,6 +236,77 @@ Shape "disk" "float radius" 50
       [&](std::size_t c) { return radiance(c, 0.9); });
 }
 
+// Media that absorb alone, within bodies whose surfaces scatter, are known to every integrator that follows light
+// through glass.
+void expect_means_of_bodies(const std::string& scene, std::initializer_list<const char*> ways, int samples, auto truth,
+                            auto faulty) {
+  EXPECT_FALSE(TestScene(scene).scene().has_participating_media());
+  for (const char* way : ways) expect_means(scene, way, samples, truth, faulty);
+}
+
+// The ray along the diameter of a ball of glass meets its surface at normal incidence, again and again.
+TEST(AbsorbingGlass, dims_every_passage_of_light_by_a_diameter) {
+  const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}};
+  const std::string scene = head(64) + R"(LookAt 0 0 5  0 0 0  0 1 0
+Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
+)" + m.text() + R"(WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+Material "dielectric" "float eta" 1.5
+MediumInterface "m" ""
+Shape "sphere" "float radius" 1
+)";
+  const double reflected = 0.04;
+  const auto radiance = [&](std::size_t c, double diameter) {
+    const double passes = std::exp(-m.absorption[c] * diameter), enters = 1 - reflected;
+    return reflected + enters * enters * passes / (1 - reflected * passes);
+  };
+  const auto truth = [&](std::size_t c) { return radiance(c, 2); };
+  const auto faulty = [&](std::size_t c) { return radiance(c, 1); };
+  expect_means_of_bodies(scene, {"path", "bdpt", "distribution", "tracepath", "restir-gi", "restir-pt"}, 64, truth,
+                         faulty);
+  expect_means_of_bodies(scene, {"metropolis"}, 1024, truth, faulty);
+}
+
+// A diffuse plate across a ball without refraction: the sky's light reaches its centre by the radius of the ball, and
+// leaves it by another.
+TEST(AbsorbingGlass, dims_what_a_plate_within_it_scatters) {
+  const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}};
+  const std::string scene = head(8) + R"(LookAt 0 0 5  0 0 0  0 1 0
+Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
+)" + m.text() + R"(WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+Material "diffuse" "rgb reflectance" [ .5 .5 .5 ]
+Shape "disk" "float radius" 0.5
+Material "dielectric" "float eta" 1
+MediumInterface "m" ""
+Shape "sphere" "float radius" 1
+)";
+  const auto radiance = [&](std::size_t c, double radii) { return 0.5 * std::exp(-m.absorption[c] * radii); };
+  expect_means_of_bodies(
+      scene, {"path", "bdpt", "distribution", "tracepath", "restir-gi", "restir-pt"}, 16,
+      [&](std::size_t c) { return radiance(c, 2); }, [&](std::size_t c) { return radiance(c, 1); });
+}
+
+// Light of a lamp below a sheet that spreads what it transmits.
+TEST(AbsorbingBody, dims_the_light_of_a_lamp_within_it) {
+  const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}};
+  const std::string scene = head(8) + R"(LookAt 2 5 0  0 1 0  0 0 1
+Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
+)" + m.text() + R"(WorldBegin
+LightSource "point" "rgb I" [ 1 1 1 ]
+Material "diffusetransmission" "rgb reflectance" [ 0 0 0 ] "rgb transmittance" [ .5 .5 .5 ]
+MediumInterface "m" ""
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
+    "point3 P" [ -500 1 -500   -500 1 500   500 1 500   500 1 -500 ]
+)";
+  const auto radiance = [&](std::size_t c, double way) {
+    return 0.5 / std::numbers::pi * std::exp(-m.absorption[c] * way);
+  };
+  expect_means_of_bodies(
+      scene, {"path", "bdpt", "direct", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt"}, 16,
+      [&](std::size_t c) { return radiance(c, 1); }, [&](std::size_t c) { return radiance(c, 0.9); });
+}
+
 TEST(Media, are_refused_by_integrators_that_cannot_cross_them) {
   const TestScene scene(slab_scene({{1, 1, 1}, {0, 0, 0}}, 1, 3));
   for (const char* way :
