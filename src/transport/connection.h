@@ -28,7 +28,7 @@ struct Arriving {
   F passing;         // probability that a path passes participating media without an event, as mean_passing()
   Mask<F> on;        // nothing blocks it
 };
-// From a point at that distance along the unit wi; `v` is a Vertex or a StoredVertex. `in_media`: the scene has
+// From a point at that distance along the unit wi; `v` is a Vertex or a StoredOrigin. `in_media`: the scene has
 // participating media. `random` decides for surfaces that are interfaces at times. Without `with_passing` that
 // probability is not computed. Adds the rays that are traced to `traced`.
 template <class F, bool in_media = false, bool with_passing = true, class V, class Rays>
@@ -62,7 +62,7 @@ struct LightConnection {
 };
 
 template <class F>
-LightConnection<F> connect(const LightSet& lights, const StoredVertex<F>& vertex, const LightPoint<F>& point,
+LightConnection<F> connect(const LightSet& lights, const StoredOrigin<F>& vertex, const LightPoint<F>& point,
                            Mask<F> on) {
   const LightPointView<F> view = lights.template view<F>(point, vertex.p, vertex.light_normal, on);
   // A flat light contributes nothing to points in its own plane, and no technique samples it there. Rounding could make
@@ -83,7 +83,7 @@ LightConnection<F> connect(const LightSet& lights, const StoredVertex<F>& vertex
 
 // The lanes in which nothing is in the way.
 template <class F, class Rays>
-Mask<F> is_open(const Rays& rays, const StoredVertex<F>& vertex, const LightConnection<F>& to, Mask<F> on,
+Mask<F> is_open(const Rays& rays, const StoredOrigin<F>& vertex, const LightConnection<F>& to, Mask<F> on,
                 std::uint64_t& traced) {
   return unblocked<F>(rays, vertex.shadow_ray_to(to.wi, to.distance), on, traced);
 }

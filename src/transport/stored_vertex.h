@@ -37,7 +37,6 @@ struct StoredVertex : StoredSurface<F> {
   Vec3<F> wo;            // local
   F time;                // of the whole path
   Media<F> media;        // on the side of wo
-  Media<F> beyond;       // on the other side
 
   // f |cos| toward a unit direction of the world, and its density.
   BsdfValue<F> scattered(const Vec3<F>& wi, Mask<F> on) const { return this->scattered_from_local(wo, wi, on); }
@@ -46,17 +45,28 @@ struct StoredVertex : StoredSurface<F> {
     const BsdfContext<F> context{TransportMode::radiance, random_of_model, on, Densities::exact};
     return sample<F>(BsdfLanes<F>{this->kind, &this->slots, on}, wo, u3, context);
   }
+};
+
+// Such a vertex from which rays start.
+template <class F>
+struct StoredOrigin : StoredVertex<F> {
+  Media<F> beyond;  // on the other side
+
   Media<F> media_toward(const Vec3<F>& wi) const {
     const Vec3<F> outward = face_forward(this->ng, this->frame.n);
-    const Mask<F> is_inside = dot(outward, this->frame.to_world(wo)) < F(0.0f);
-    return select_media<F>((dot(outward, wi) < F(0.0f)) ^ is_inside, beyond, media);
+    const Mask<F> is_inside = dot(outward, this->frame.to_world(this->wo)) < F(0.0f);
+    return select_media<F>((dot(outward, wi) < F(0.0f)) ^ is_inside, beyond, this->media);
   }
-  ReferencePoint<F> reference_toward(const Vec3<F>& wi) const { return {this->p, light_normal, media_toward(wi)}; }
-  Vec3<F> origin_toward(const Vec3<F>& wi) const { return offset_origin(this->p, p_error, this->ng, wi); }
-  Ray<F> ray_toward(const Vec3<F>& wi, F t_max = F(ray_infinity)) const { return {origin_toward(wi), wi, t_max, time}; }
+  ReferencePoint<F> reference_toward(const Vec3<F>& wi) const {
+    return {this->p, this->light_normal, media_toward(wi)};
+  }
+  Vec3<F> origin_toward(const Vec3<F>& wi) const { return offset_origin(this->p, this->p_error, this->ng, wi); }
+  Ray<F> ray_toward(const Vec3<F>& wi, F t_max = F(ray_infinity)) const {
+    return {origin_toward(wi), wi, t_max, this->time};
+  }
   // To the point at that distance along the unit wi.
   Ray<F> shadow_ray_to(const Vec3<F>& wi, F distance) const {
-    return shadow_ray(this->p, p_error, this->ng, wi, distance, time);
+    return shadow_ray(this->p, this->p_error, this->ng, wi, distance, this->time);
   }
 };
 
@@ -78,8 +88,11 @@ StoredVertex<F> stored(const Vertex<F>& v) {
           v.bsdf.light_normal,
           v.wo,
           v.time,
-          v.media.toward(-v.d),
-          v.media.toward(v.d)};
+          v.media.toward(-v.d)};
+}
+template <class F>
+StoredOrigin<F> stored_origin(const Vertex<F>& v) {
+  return {stored(v), v.media.toward(v.d)};
 }
 
 }  // namespace montelux

@@ -90,7 +90,7 @@ ChainTracer::ChainTracer(const Scene& scene, const Accel& accel, float max_rough
                                                                                          : Caster::none));
 }
 
-bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const ChainKind& kind,
+bool ChainTracer::trace(const StoredOrigin<float>& from, const Vec3f& w, const ChainKind& kind,
                         const RandomStream<float>& random, SpecularChain& chain, std::uint64_t& rays) const {
   using F = float;
   const LocalFrame<F> frame = LocalFrame<F>::from_normal(w);
@@ -150,7 +150,7 @@ bool ChainTracer::trace(const StoredVertex<float>& from, const Vec3f& w, const C
     if (!(max_component(chain.left) > 0)) return false;
     chain.at[events] = {hit.geometry, hit.instance};
     const Vec3f onward = to_float(r.d);
-    if (++events == kind.length) chain.last = stored(v);
+    if (++events == kind.length) chain.last = stored_origin(v);
     segment.media = v.media_toward(onward), segment.ray = v.ray_toward(onward), crossings = 0, distance = 0;
   }
   chain.p = r.p, chain.d = r.d, chain.dp = r.dp, chain.dd = r.dd;

@@ -36,7 +36,7 @@ struct SpecularChain {
   std::array<Vec3d, 2> dp, dd;                  // their derivatives
   std::array<ChainPlace, max_chain_length> at;  // of the vertices
   Spectrum<float> left;                         // weight of the events and of the media on the way (radiance)
-  StoredVertex<float> last;
+  StoredOrigin<float> last;
 };
 
 // Traces chains through a scene without participating media.
@@ -60,7 +60,7 @@ class ChainTracer {
   // events. `random` decides for mixtures of materials and for facets: chains with the same numbers go through the same
   // scene. A facet's normal has the density D(m) cos(m), which depends on no direction, and the weight of the chain is
   // divided by it.
-  bool trace(const StoredVertex<float>& from, const Vec3f& w, const ChainKind& kind, const RandomStream<float>& random,
+  bool trace(const StoredOrigin<float>& from, const Vec3f& w, const ChainKind& kind, const RandomStream<float>& random,
              SpecularChain& chain, std::uint64_t& rays) const;
 
   const Scene& scene() const { return scene_; }

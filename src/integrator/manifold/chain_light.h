@@ -57,12 +57,12 @@ Mask<F> casts(const ManifoldLight& lights, const SurfaceHit<F>& x, Mask<F> is_de
 
 // ManifoldLight::light() in each of the lanes `on`.
 template <class F>
-ChainLight<F> chain_light(const ManifoldLight& lights, const StoredVertex<F>& x, Mask<F> on,
+ChainLight<F> chain_light(const ManifoldLight& lights, const StoredOrigin<F>& x, Mask<F> on,
                           const ChainLengths<Uint<F>>& lengths, std::uint64_t& rays);
 
-extern template ChainLight<float> chain_light(const ManifoldLight&, const StoredVertex<float>&, bool,
+extern template ChainLight<float> chain_light(const ManifoldLight&, const StoredOrigin<float>&, bool,
                                               const ChainLengths<std::uint32_t>&, std::uint64_t&);
-extern template ChainLight<NativeFloats> chain_light(const ManifoldLight&, const StoredVertex<NativeFloats>&,
+extern template ChainLight<NativeFloats> chain_light(const ManifoldLight&, const StoredOrigin<NativeFloats>&,
                                                      Mask<NativeFloats>, const ChainLengths<Uint<NativeFloats>>&,
                                                      std::uint64_t&);
 extern template bool casts(const ManifoldLight&, const SurfaceHit<float>&, bool, bool);

@@ -96,7 +96,7 @@ std::vector<double> ManifoldLight::learn_searches() {
   return shares;
 }
 
-std::optional<ChainSolution> ManifoldLight::solution(const StoredVertex<float>& x, const Search& search,
+std::optional<ChainSolution> ManifoldLight::solution(const StoredOrigin<float>& x, const Search& search,
                                                      RandomStream<float> random, const RandomStream<float>& of_scene,
                                                      std::uint64_t& rays) const {
   const float u = random.next();
@@ -113,7 +113,7 @@ std::optional<ChainSolution> ManifoldLight::solution(const StoredVertex<float>& 
 // 1 / p is the sum over n >= 0 of the probability that n walks do not find the chain. Beyond sure_walks roulette
 // decides whether the sum continues: it gets to n walks with the probability (sure_walks / n)^2, so that less than 2
 // sure_walks are expected however small p is, and each term is divided by its probability.
-double ManifoldLight::reciprocal_probability(const StoredVertex<float>& x, const Search& search,
+double ManifoldLight::reciprocal_probability(const StoredOrigin<float>& x, const Search& search,
                                              const ChainSolution& found, const RandomStream<float>& random,
                                              const RandomStream<float>& of_scene, std::uint64_t& rays) const {
   const RandomStream<float> ends = random.fork(ending);
@@ -130,7 +130,7 @@ double ManifoldLight::reciprocal_probability(const StoredVertex<float>& x, const
   }
 }
 
-ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, const ChainLengths<std::uint32_t>& lengths,
+ChainLight<float> ManifoldLight::light(const StoredOrigin<float>& x, const ChainLengths<std::uint32_t>& lengths,
                                        std::uint64_t& rays) const {
   const LightSet& lights = tracer_.scene().lights;
   const RandomStream<float> random = x.random.fork(vertex_stream::manifold), of_scene = random.fork(of_the_scene);
@@ -145,7 +145,7 @@ ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, const Chain
   // The irradiance of the light where its direct light arrives, over how the chain spreads it: the determinant is that
   // of the angle (for a light at a point, of the place over the distance) at the light's end by the first direction.
   const SpecularChain& chain = found->chain;
-  const StoredVertex<float>& last = chain.last;
+  const StoredOrigin<float>& last = chain.last;
   const LightSample<float> light = lights.sample_light<float>(number, last.p, {0, 0, 0}, {0.5f, 0.5f}, true);
   const double spread = std::abs(found->miss.determinant());
   if (!light.valid || !(spread > 1e-30)) return none;
@@ -168,11 +168,11 @@ ChainLight<float> ManifoldLight::light(const StoredVertex<float>& x, const Chain
 }
 
 template <class F>
-ChainLight<F> chain_light(const ManifoldLight& lights, const StoredVertex<F>& x, Mask<F> on,
+ChainLight<F> chain_light(const ManifoldLight& lights, const StoredOrigin<F>& x, Mask<F> on,
                           const ChainLengths<Uint<F>>& lengths, std::uint64_t& rays) {
   ChainLight<F> all{gray(F(0.0f)), Uint<F>(0u), Uint<F>(1u)};
   for_each_lane(on, [&](int k) {
-    StoredVertex<float> one;
+    StoredOrigin<float> one;
     get_lane_words(x, k, one);
     const ChainLight<float> light = lights.light(one, {lane(lengths.min, k), lane(lengths.max, k)}, rays);
     set_lane(all.scattered, k, light.scattered), set_lane(all.number, k, light.number),
@@ -188,9 +188,9 @@ Mask<F> casts(const ManifoldLight& lights, const SurfaceHit<F>& x, Mask<F> is_de
   return lights.tracer().caster_at(x, is_delta, on) != Uint<F>(std::uint32_t(Caster::none));
 }
 
-template ChainLight<float> chain_light(const ManifoldLight&, const StoredVertex<float>&, bool,
+template ChainLight<float> chain_light(const ManifoldLight&, const StoredOrigin<float>&, bool,
                                        const ChainLengths<std::uint32_t>&, std::uint64_t&);
-template ChainLight<NativeFloats> chain_light(const ManifoldLight&, const StoredVertex<NativeFloats>&,
+template ChainLight<NativeFloats> chain_light(const ManifoldLight&, const StoredOrigin<NativeFloats>&,
                                               Mask<NativeFloats>, const ChainLengths<Uint<NativeFloats>>&,
                                               std::uint64_t&);
 template bool casts(const ManifoldLight&, const SurfaceHit<float>&, bool, bool);

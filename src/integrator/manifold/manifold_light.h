@@ -24,7 +24,7 @@ class ManifoldLight {
   // At a rough vertex, by chains of these lengths, with the numbers of the vertex. A walk from a
   // random start finds a chain with a probability that is unknown; the number of walks until another one finds the same
   // chain estimates its reciprocal. Adds the rays that are traced to `rays`.
-  ChainLight<float> light(const StoredVertex<float>& x, const ChainLengths<std::uint32_t>& lengths,
+  ChainLight<float> light(const StoredOrigin<float>& x, const ChainLengths<std::uint32_t>& lengths,
                           std::uint64_t& rays) const;
 
  private:
@@ -40,10 +40,10 @@ class ManifoldLight {
   // it is made; and the ends of its chains, where most walks start.
   std::vector<double> learn_searches();
 
-  std::optional<ChainSolution> solution(const StoredVertex<float>& x, const Search& search, RandomStream<float> random,
+  std::optional<ChainSolution> solution(const StoredOrigin<float>& x, const Search& search, RandomStream<float> random,
                                         const RandomStream<float>& of_scene, std::uint64_t& rays) const;
   // An unbiased estimate of one over the probability with which solution() finds this one.
-  double reciprocal_probability(const StoredVertex<float>& x, const Search& search, const ChainSolution& found,
+  double reciprocal_probability(const StoredOrigin<float>& x, const Search& search, const ChainSolution& found,
                                 const RandomStream<float>& random, const RandomStream<float>& of_scene,
                                 std::uint64_t& rays) const;
 

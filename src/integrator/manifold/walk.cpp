@@ -65,7 +65,7 @@ bool ChainSolution::is_same(const ChainSolution& other) const {
   return norm(to_double(chain.w - other.chain.w)) < allowed;
 }
 
-std::optional<ChainSolution> walk_to_light(const ChainTracer& tracer, const StoredVertex<float>& from,
+std::optional<ChainSolution> walk_to_light(const ChainTracer& tracer, const StoredOrigin<float>& from,
                                            const Vec3f& start, const ChainKind& kind, const DeltaLight& light,
                                            const RandomStream<float>& random, std::uint64_t& rays) {
   ChainSolution here;

@@ -38,7 +38,7 @@ struct ChainSolution {
 };
 
 // From the unit direction `start`. None: no such chain there, or the walk does not find it.
-std::optional<ChainSolution> walk_to_light(const ChainTracer& tracer, const StoredVertex<float>& from,
+std::optional<ChainSolution> walk_to_light(const ChainTracer& tracer, const StoredOrigin<float>& from,
                                            const Vec3f& start, const ChainKind& kind, const DeltaLight& light,
                                            const RandomStream<float>& random, std::uint64_t& rays);
 

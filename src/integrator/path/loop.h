@@ -317,7 +317,7 @@ RayCounts run_paths(const Scene& scene, const LightSet& lights, const Rays& rays
         const U deepest = max_depth - path.depth;  // at least 1 where light is wanted
         const ChainLengths<U> lengths{chains.min_length(), select(wants_light, deepest - U(1u), U(0u))};
         const ChainLight<F> chain =
-            chain_light<F>(*settings.manifold_light, stored(v), wants_light, lengths, counts.shadow);
+            chain_light<F>(*settings.manifold_light, stored_origin(v), wants_light, lengths, counts.shadow);
         gather_light(path, wants_light & (max_component(chain.scattered) > F(0.0f)), path.throughput * chain.scattered,
                      tally, [&] {
                        return LightOrigin<F>{path.depth + chain.events, chain.number, Technique::light_sampling};

@@ -168,7 +168,7 @@ class FirstStage {
   }
 
   ReuseVertex<F> reuse_vertex(const PathState<F>& path, const Vertex<F>& v, const RandomStream<F>& numbers) const {
-    StoredVertex<F> kept = stored(v);
+    StoredOrigin<F> kept = stored_origin(v);
     kept.random = numbers.fork(U(restir_stream::bsdf));
     return {kept, path.throughput * path.weight, length(v.x.point.p - path.p), v.x.object, path.depth, U(1u)};
   }

@@ -12,7 +12,7 @@ namespace montelux {
 // The first surface of a pixel's path that scatters in more than single directions. Made of 32-bit words alone, so that
 // pixels can be gathered into lanes.
 template <class F>
-struct ReuseVertex : StoredVertex<F> {
+struct ReuseVertex : StoredOrigin<F> {
   Spectrum<F> throughput;  // of the path so far, with the weights of camera and filter
   F depth;                 // distance from the vertex before it, or the camera
   Uint<F> object;          // number of the object, as SurfaceHit has it
@@ -23,7 +23,7 @@ struct ReuseVertex : StoredVertex<F> {
 // The vertex `v` behind `from`, which gives what belongs to the whole path.
 template <class F>
 ReuseVertex<F> vertex_behind(const ReuseVertex<F>& from, const Vertex<F>& v) {
-  return {stored(v), from.throughput, from.depth, from.object, from.events, from.exists};
+  return {stored_origin(v), from.throughput, from.depth, from.object, from.events, from.exists};
 }
 
 // Surfaces among which reuse pays: normals within 25 degrees, distances within a tenth (Bitterli et al. 2020, sec. 5).
