@@ -1,6 +1,6 @@
 // The part of reading and writing images that needs a large library. It is a separate module because the library and
-// its dependencies take a quarter of a second to load: most runs of the program write OpenEXR, PNG or JPEG, and read
-// PNG and JPEG (direct_formats.h), or no image.
+// its dependencies take a quarter of a second to load: most runs of the program read and write OpenEXR (exr.h), PNG or
+// JPEG (direct_formats.h), or no image.
 #pragma once
 #include <string>
 #include <vector>

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "image/direct_formats.h"
+#include "image/exr.h"
 #include "image/image_codec.h"
 #include "image/image_file.h"
 #include "image/png_check.h"
@@ -58,6 +59,7 @@ std::string bytes_of_usual_file(const std::filesystem::path& path) {
 
 // As stored: directly where that is possible, else by the module. `bytes`: null for a file.
 Result<StoredImage> read_stored(const std::string& name, const std::string* bytes) {
+  if (std::optional<StoredImage> exr = read_exr(name, bytes)) return *std::move(exr);
   const std::string of_file = bytes ? std::string() : bytes_of_usual_file(name);
   const std::string& begun = bytes ? *bytes : of_file;
   if (const Status whole = check_png(begun); !whole) return whole.failure();

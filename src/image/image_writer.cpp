@@ -17,9 +17,9 @@
 #include <cstring>
 #include <ctime>
 #include <functional>
-#include <thread>
 
 #include "image/direct_formats.h"
+#include "image/exr.h"
 #include "image/image_codec.h"
 #include "image/image_file.h"
 #include "image/output_file.h"
@@ -84,13 +84,6 @@ Imf::Header exr_header(int width, int height, const std::vector<std::string>& ch
   return header;
 }
 
-// For each of them the library stores rows that wait to be compressed, and rows that are.
-int threads_of(int stated) {
-  constexpr int max_threads = 8;
-  const int threads = stated > 0 ? stated : int(std::thread::hardware_concurrency());
-  return std::clamp(threads, 1, max_threads);
-}
-
 // Writes the rows of a picture that follow those that the file has.
 void append_rows(Imf::OutputFile& file, const PixelBuffer& rows, const ExrOptions& options) {
   // The library counts rows from the top of the picture.
@@ -122,7 +115,7 @@ void append_rows(Imf::OutputFile& file, const PixelBuffer& rows, const ExrOption
 Result<std::string> encode_rows(const ImageRows& image, const ExrOptions& options) {
   if (image.width <= 0 || image.height <= 0 || image.channels.empty()) return Failure{"the image is empty"};
   MemoryStream stream;
-  const int threads = threads_of(options.threads), rows_together = exr_rows_together(threads);
+  const int threads = exr_threads(options.threads), rows_together = exr_rows_together(threads);
   if (threads > 1) Imf::setGlobalThreadCount(threads);
   {
     // Of no thread beside the calling one, or of those.
@@ -220,7 +213,7 @@ Result<std::string> encode_image(const std::filesystem::path& path, const PixelB
   return encode_for(path, [&] { return encode(image, lower_extension(path), options); });
 }
 
-int exr_rows_together(int threads) { return 32 * threads_of(threads); }  // each thread compresses 32 at once
+int exr_rows_together(int threads) { return 32 * exr_threads(threads); }  // each thread compresses 32 at once
 
 Result<std::string> encode_exr(const std::filesystem::path& path, const ImageRows& image, const ExrOptions& options) {
   return encode_for(path, [&] { return encode_rows(image, options); });

@@ -19,6 +19,8 @@ class DenoiseTest(ProgramTest):
             for x, y in zip(row, other):
                 self.assertAlmostEqual(x, y, delta=1e-4 * (1 + abs(x)))
         # A file that has the layers already gets new ones; R, G and B stay the estimate.
+        for file in "a.exr", "c.exr":
+            self.assertIn(b"capDate", (self.folder / file).read_bytes(), file)
         self.run_program("denoise", "c.exr", "-o", "d.exr", "--threads", 1)
         self.assertEqual((self.folder / "c.exr").read_bytes(), (self.folder / "d.exr").read_bytes())
         self.run_program("diff", "b.exr", "d.exr")

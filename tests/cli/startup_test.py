@@ -1,5 +1,6 @@
 """What the program loads before it does anything: little, so that it starts at once."""
 import os
+import re
 import subprocess
 import unittest
 
@@ -17,6 +18,15 @@ class StartUp(ProgramTest):
         self.assertTrue(any("libembree" in line for line in libraries))  # the list is one of libraries
         self.assertFalse([line for line in libraries if "OpenImageIO" in line or "codec" in line])
         self.assertLess(len(libraries), 60)  # 264 with it
+
+    def test_openexr_needs_no_library_of_formats(self):
+        self.render("--spp", "4", "-o", "a.exr")
+        for command in ["info", "a.exr"], ["tonemap", "a.exr", "-o", "a.png"], ["diff", "a.exr", "a.exr"]:
+            result = subprocess.run([PROGRAM, *command], cwd=self.folder, env={**ENVIRONMENT, "LD_DEBUG": "libs"}, text=True,
+                                    capture_output=True, check=True)
+            loaded = re.findall(r"calling init: (\S+)", result.stderr)
+            self.assertTrue([library for library in loaded if "libOpenEXR" in library])
+            self.assertFalse([library for library in loaded if "OpenImageIO" in library])
 
     def test_formats_work_from_any_folder_and_by_any_name_of_the_program(self):
         write_pfm(self.folder / "gray.pfm", 8, 8, (0.5, 0.5, 0.5))
