@@ -32,11 +32,12 @@ struct Scene {
   Shutter shutter;
   bool pixel_centres = false;  // camera rays use the centres of pixels, of the lens and of the exposure
 
-  // Whether rays must be followed through the scene's media event by event: they scatter or emit, or rays pass straight
-  // from one into another. Otherwise they absorb alone, each segment of a path lies in one medium, and Media::left() is
-  // all there is to it, as for bodies of glass.
+  // Whether rays must be followed through the scene's media event by event: they scatter or emit, rays pass straight
+  // from one into another, or the camera is in one, which may have no boundary. Otherwise they absorb alone, each
+  // segment of a path lies in one medium, and Media::left() is all there is to it, as for bodies of glass.
   bool has_participating_media() const {
-    return media.scatters() || media.emits() || (!media.empty() && geometry.has_open_boundaries);
+    return media.scatters() || media.emits() || (!media.empty() && geometry.has_open_boundaries) ||
+           camera_medium != empty_space;
   }
 
   // Whether the geometry or the camera moves: only then does a path need a time.

@@ -118,7 +118,7 @@ std::unique_ptr<FrameSeries> BdptIntegrator::begin(const SeriesPass& pass) const
                                                      pass);
   };
   const bool one = paths_.lanes == Lanes::one;
-  if (!scene_.media.empty())
+  if (scene_.has_participating_media())
     return one ? make.template operator()<float, true>() : make.template operator()<NativeFloats, true>();
   return one ? make.template operator()<float, false>() : make.template operator()<NativeFloats, false>();
 }

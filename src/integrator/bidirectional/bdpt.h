@@ -30,7 +30,7 @@ class BdptIntegrator final : public CoupledIntegrator {
   BidirectionalPaths paths_;
   std::optional<AliasTable> by_power_;     // none: there is no light
   std::optional<LightSet> compensated_;    // as BidirectionalFrame has it
-  std::optional<LightMedia> light_media_;  // none: the scene has no participating media, or no light
+  std::optional<LightMedia> light_media_;  // none: the scene has no media, or no light
 };
 
 }  // namespace montelux

@@ -19,7 +19,7 @@ Result<ChosenIntegrator> make_bdpt(const IntegratorRequest& r) {
 
 Result<ChosenIntegrator> make_vcm(const IntegratorRequest& r) {
   VcmSettings settings = vcm_settings(r.list, r.max_depth);
-  if (!settings.paths.connect && !r.scene.media.empty())
+  if (!settings.paths.connect && r.scene.has_participating_media())
     return Failure{
         "the scene has participating media, where vcm does not merge vertices: there it needs connections "
         "(--set connect=on)"};

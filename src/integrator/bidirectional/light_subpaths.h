@@ -32,7 +32,7 @@ struct BidirectionalFrame {
   bool one_sided;  // some surface is not there for camera rays that meet its back
   Plane& plane;
   std::uint32_t light_path_count;      // at least one for each pixel, or cell: the first ones belong to these
-  const LightMedia* light_media;       // null: the scene has no participating media
+  const LightMedia* light_media;       // null: the scene has no media
   const PhotonMap* photons = nullptr;  // to be merged with the eye's vertices; null: none are
   PhotonKernel kernel = PhotonKernel::epanechnikov;
   // Of a pass with layers: by the number of a path from the lights the light where it starts; else null.

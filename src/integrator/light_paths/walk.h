@@ -20,7 +20,7 @@ struct LightWalkScene {
   std::optional<int> max_depth;         // scattering events, that of the last vertex included
   int roulette_depth;                   // scattering events before roulette
   Densities densities = Densities::for_weights;
-  const LightMedia* light_media = nullptr;  // of a walk in media
+  const LightMedia* light_media = nullptr;  // null: the scene has no media
 };
 
 // A path on its way, one a lane.
@@ -166,7 +166,7 @@ class LightWalk {
     const M leaves = shared_.max_depth && *shared_.max_depth == 0 ? M(false) : carries;
     const Vec3<F> o = select(e.on_surface, offset_origin(e.p, e.p_error, e.n, e.d), e.p);
     ReferencePoint<F> from = free_point(e.p);
-    if constexpr (in_media)
+    if (shared_.light_media)
       from.media = shared_.light_media->template around<F>(scene_.media, choice.index, !e.behind, on);
     return {{{o, e.d, F(ray_infinity), time}, from, flux, max_component(flux), U(0u), U(0u), site}, leaves};
   }

@@ -39,7 +39,7 @@ class LightTracingSeries final : public FrameSeries {
     const LightTracingScene<Accel> shared{scene_,     accel_, settings_,
                                           *by_power_, pass_,  std::uint32_t(step.frame),
                                           one_sided_, plane_, light_media_ ? &*light_media_ : nullptr};
-    if (light_media_) return LightTracingLoop<F, Accel, AdjointCorrection, true>(shared).run(tile);
+    if (scene_.has_participating_media()) return LightTracingLoop<F, Accel, AdjointCorrection, true>(shared).run(tile);
     return LightTracingLoop<F, Accel>(shared).run(tile);
   }
 

@@ -34,7 +34,7 @@ class LightTracer final : public CoupledIntegrator {
   const Accel& accel_;
   LightTracingSettings settings_;
   std::optional<AliasTable> by_power_;     // none: there is no light
-  std::optional<LightMedia> light_media_;  // none: the scene has no participating media, or no light
+  std::optional<LightMedia> light_media_;  // none: the scene has no media, or no light
 };
 
 }  // namespace montelux

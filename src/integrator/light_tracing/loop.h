@@ -18,7 +18,7 @@ struct LightTracingScene {
   std::uint32_t frame;
   bool one_sided;  // some surface is not there for camera rays that meet its back
   SplatPlane& plane;
-  const LightMedia* light_media = nullptr;  // null: the scene has no participating media
+  const LightMedia* light_media = nullptr;  // null: the scene has no media
 };
 
 // Splats what the vertices of light paths send to the lens, and the lights themselves. `Correction` is
@@ -107,7 +107,7 @@ class LightTracingLoop {
       const M lit = surfaces & lens.seen & ((cos > F(0.0f)) | e.both_sides);
       const Spectrum<F> contribution = e.radiance * (abs(cos) * lens.across / (choice.mass * e.position) * scale_);
       Media<F> media = no_media<F>();
-      if constexpr (in_media)
+      if (shared_.light_media)
         media = shared_.light_media->template around<F>(scene_.media, choice.index, (cos > F(0.0f)) ^ e.behind, lit);
       lens_.connect({e.p, e.p_error, e.n}, {media, lens, time, random}, contribution, lit, origin(U(0u), choice.index));
     }

@@ -374,9 +374,9 @@ MetropolisIntegrator::MetropolisIntegrator(const Scene& scene, const Accel& acce
   strategies_.light_media = light_media_ ? &*light_media_ : nullptr;
   strategies_.one_sided = has_one_sided_surfaces(scene);
   const PixelBounds picture{0, 0, std::max(settings.width, 1), std::max(settings.height, 1)};
-  strategies_.choice = scene.media.empty()
-                           ? pilot<StrategyFunction<F, Accel, false>>(scene, accel, strategies_, picture)
-                           : pilot<StrategyFunction<F, Accel, true>>(scene, accel, strategies_, picture);
+  strategies_.choice = scene.has_participating_media()
+                           ? pilot<StrategyFunction<F, Accel, true>>(scene, accel, strategies_, picture)
+                           : pilot<StrategyFunction<F, Accel, false>>(scene, accel, strategies_, picture);
 }
 
 std::unique_ptr<FrameSeries> MetropolisIntegrator::begin(const SeriesPass& pass) const {
@@ -385,8 +385,8 @@ std::unique_ptr<FrameSeries> MetropolisIntegrator::begin(const SeriesPass& pass)
   };
   if (settings_.strategies == MetropolisStrategies::path)
     return make.template operator()<PathFunction<F, Accel>>(path_);
-  if (scene_.media.empty()) return make.template operator()<StrategyFunction<F, Accel, false>>(strategies_);
-  return make.template operator()<StrategyFunction<F, Accel, true>>(strategies_);
+  if (scene_.has_participating_media()) return make.template operator()<StrategyFunction<F, Accel, true>>(strategies_);
+  return make.template operator()<StrategyFunction<F, Accel, false>>(strategies_);
 }
 
 }  // namespace montelux

@@ -32,7 +32,7 @@ class MetropolisIntegrator final : public CoupledIntegrator {
   PathSettings path_;                      // of the paths, where these are those of `path`; else:
   std::optional<AliasTable> by_power_;     // none: there is no light
   std::optional<LightSet> compensated_;    // as BidirectionalFrame has it
-  std::optional<LightMedia> light_media_;  // none: the scene has no participating media, or no light
+  std::optional<LightMedia> light_media_;  // none: the scene has no media, or no light
   StrategyPaths strategies_;
 };
 

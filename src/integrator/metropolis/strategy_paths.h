@@ -13,7 +13,7 @@ namespace montelux {
 struct StrategyPaths {
   BidirectionalPaths paths;
   const AliasTable* by_power = nullptr;     // null: there is no light
-  const LightMedia* light_media = nullptr;  // null: the scene has no participating media, or no light
+  const LightMedia* light_media = nullptr;  // null: the scene has no media, or no light
   const LightSet* compensated = nullptr;    // as BidirectionalFrame has it
   bool one_sided = false;                   // as BidirectionalFrame has it
   std::optional<StrategyChoice> choice{};   // none: of the pilot, which is given its strategies

@@ -13,13 +13,13 @@ namespace montelux {
 namespace {
 
 Status check_medium_radius(float radius, const Scene& scene) {
-  if (radius > 0 && scene.media.empty())
+  if (radius > 0 && !scene.has_participating_media())
     return Failure{"medium-radius is for participating media, and the scene has none"};
   return Done{};
 }
 
 void note_photons(ChosenIntegrator& chosen, const Scene& scene, float medium_radius) {
-  if (!scene.media.empty()) {
+  if (scene.has_participating_media()) {
     chosen.biases.push_back(fmt::format("medium-radius={:.4g}", medium_radius));
     chosen.notes.push_back(
         fmt::format("in participating media photons are gathered within {:.4g} at first: the picture is biased where "
@@ -45,7 +45,7 @@ Result<ChosenIntegrator> make_sppm(const IntegratorRequest& r) {
   if (!settings) return settings.failure();
   if (Status used = check_medium_radius(settings->medium_radius, r.scene); !used) return used.failure();
   const int width = r.width(), height = r.height();
-  if (settings->medium_radius == 0 && !r.scene.media.empty())
+  if (settings->medium_radius == 0 && r.scene.has_participating_media())
     settings->medium_radius =
         medium_radius_by_photons(PhotonPilot(r.scene, r.accel, sppm_paths(*settings, width * height)));
   if (settings->radius == 0) settings->radius = radius_by_footprint(r.scene, r.accel, width, height);
@@ -61,7 +61,7 @@ Result<ChosenIntegrator> make_photonmap(const IntegratorRequest& r) {
   if (!settings) return settings.failure();
   const int width = r.width(), height = r.height();
   if (Status used = check_medium_radius(settings->medium_radius, r.scene); !used) return used.failure();
-  const bool in_media = !r.scene.media.empty();
+  const bool in_media = r.scene.has_participating_media();
   if (settings->radius == 0 || (in_media && settings->medium_radius == 0)) {
     const PhotonPilot pilot(r.scene, r.accel, global_paths(*settings, width * height));
     if (settings->radius == 0) settings->radius = radius_by_photons(pilot, *settings);

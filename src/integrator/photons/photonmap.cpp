@@ -92,7 +92,7 @@ std::unique_ptr<FrameSeries> PhotonMapIntegrator::begin(const SeriesPass& pass) 
     return std::make_unique<PhotonMapSeries<F, in_media>>(scene_, accel_, settings_, lights_, pass);
   };
   const bool one = settings_.lanes == Lanes::one;
-  if (!scene_.media.empty())
+  if (scene_.has_participating_media())
     return one ? make.template operator()<float, true>() : make.template operator()<NativeFloats, true>();
   return one ? make.template operator()<float, false>() : make.template operator()<NativeFloats, false>();
 }

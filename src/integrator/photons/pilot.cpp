@@ -66,12 +66,12 @@ PhotonPilot::PhotonPilot(const Scene& scene, const Accel& accel, const PhotonPat
                                    paths.roulette_depth,
                                    Densities::for_weights,
                                    lights.media ? &*lights.media : nullptr};
-  if (scene.media.empty()) {
-    PhotonSink<NativeFloats> sink(surfaces_, paths.first_event, 1);
-    follow_paths<false>(walk, sink);
-  } else {
+  if (scene.has_participating_media()) {
     PhotonSink<NativeFloats> sink(surfaces_, paths.first_event, 1, nullptr, MediumBox{scene.media, media_});
     follow_paths<true>(walk, sink);
+  } else {
+    PhotonSink<NativeFloats> sink(surfaces_, paths.first_event, 1);
+    follow_paths<false>(walk, sink);
   }
 }
 

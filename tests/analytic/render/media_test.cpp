@@ -283,7 +283,7 @@ Shape "sphere" "float radius" 1
 )";
   const auto radiance = [&](std::size_t c, double radii) { return 0.5 * std::exp(-m.absorption[c] * radii); };
   expect_means_of_bodies(
-      scene, {"path", "bdpt", "distribution", "tracepath", "restir-gi", "restir-pt"}, 16,
+      scene, {"path", "bdpt", "vcm", "distribution", "tracepath", "restir-gi", "restir-pt"}, 16,
       [&](std::size_t c) { return radiance(c, 2); }, [&](std::size_t c) { return radiance(c, 1); });
 }
 
@@ -303,8 +303,26 @@ Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
     return 0.5 / std::numbers::pi * std::exp(-m.absorption[c] * way);
   };
   expect_means_of_bodies(
-      scene, {"path", "bdpt", "direct", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt"}, 16,
+      scene, {"path", "bdpt", "vcm", "direct", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt"}, 16,
       [&](std::size_t c) { return radiance(c, 1); }, [&](std::size_t c) { return radiance(c, 0.9); });
+}
+
+// Half of the picture is a lamp in the fog, the other half a sky of which an endless fog leaves nothing.
+TEST(UnboundedMedium, that_absorbs_dims_what_is_near_and_hides_the_sky) {
+  const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}};
+  const std::string scene = m.text() + "MediumInterface \"\" \"m\"\n" + head(4) + R"(LookAt 0 0 2  0 0 0  0 1 0
+Camera "orthographic" "float screenwindow" [ -1 1 -1 1 ]
+WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+AreaLightSource "diffuse" "rgb L" [ 1 1 1 ] "bool twosided" true
+Material "diffuse" "rgb reflectance" [ 0 0 0 ]
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ] "point3 P" [ 0 -9 0  9 -9 0  9 9 0  0 9 0 ]
+)";
+  EXPECT_TRUE(TestScene(scene).scene().has_participating_media());
+  const auto radiance = [&](std::size_t c, double way) { return 0.5 * std::exp(-m.absorption[c] * way); };
+  for (const char* way : {"path", "bdpt"})
+    expect_means(
+        scene, way, 64, [&](std::size_t c) { return radiance(c, 2); }, [&](std::size_t c) { return radiance(c, 1.8); });
 }
 
 TEST(Media, are_refused_by_integrators_that_cannot_cross_them) {
