@@ -20,11 +20,11 @@ struct Decoded {
   std::vector<std::uint8_t*> rows;
 
   std::size_t row_size() const { return std::size_t(width) * std::size_t(channels) * std::size_t(bytes); }
-  // Whether a file of this size may hold so many samples: deflate packs at most 1032 bytes into one.
+  // Whether a file of this size may hold so many samples.
   bool is_plausible(std::size_t file_size) const {
     if (width <= 0 || height <= 0 || channels <= 0) return false;
     const double count = double(width) * height * channels;
-    return count <= double(largest_sample_count) && count * bytes <= 4.0 * 1032 * double(file_size);
+    return count <= double(largest_sample_count) && count * bytes <= 4 * deflate_packing * double(file_size);
   }
   void make_room() {
     samples.resize(row_size() * std::size_t(height)), rows.resize(std::size_t(height));

@@ -22,6 +22,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 
 namespace montelux {
 
@@ -76,20 +77,16 @@ struct ChannelName {
   }
 };
 
-// Whether a file of this size can contain what its header states, as the module judges it. Small images are not
-// checked.
-bool is_plausible(const Imf::Header& header, std::uint64_t width, std::uint64_t height, std::uint64_t pixel_bytes,
-                  std::uint64_t file_size) {
-  constexpr std::uint64_t small = std::uint64_t(64) << 20;
+// Of the image, or of a tile that is larger.
+bool is_plausible(const Imf::Header& header, std::uint64_t pixels, std::uint64_t pixel_bytes, std::uint64_t file_size) {
   const Imf::Compression compression = header.compression();
   const bool unbounded = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
-  std::uint64_t pixels = width * height;
   if (header.hasTileDescription()) {
     const Imf::TileDescription& tile = header.tileDescription();
     pixels = std::max(pixels, std::uint64_t(tile.xSize) * tile.ySize);
   }
-  const double bytes = double(pixels) * double(pixel_bytes);
-  return bytes <= double(small) || bytes <= double(file_size) * (unbounded ? 1 << 18 : 1032);
+  return may_contain(double(file_size), unbounded ? unknown_packing : deflate_packing,
+                     double(pixels) * double(pixel_bytes));
 }
 
 std::vector<Attribute> entries_of(const Imf::Header& header) {
@@ -142,7 +139,7 @@ std::optional<StoredImage> read(Imf::InputFile& file, std::uint64_t file_size) {
     if (image.alpha_channel < 0 && channel.is_alpha()) image.alpha_channel = pixels.channel_count();
     pixels.channels.push_back(channel.name);
   }
-  if (!is_plausible(header, std::uint64_t(width), std::uint64_t(height), pixel_bytes, file_size)) return std::nullopt;
+  if (!is_plausible(header, std::uint64_t(width * height), pixel_bytes, file_size)) return std::nullopt;
 
   pixels.values.resize(pixels.pixel_count() * channels.size());
   const std::size_t pixel = sizeof(float) * channels.size(), row = pixel * std::size_t(width);

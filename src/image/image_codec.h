@@ -18,6 +18,15 @@ struct StoredImage {
   std::vector<Attribute> attributes;
 };
 
+// The maximum ratio of decoded bytes to file bytes: deflate reaches 1032 (zlib's documentation), run lengths and
+// discrete cosines less; the others have no known bound.
+inline constexpr double deflate_packing = 1032, unknown_packing = 1 << 18;
+// Whether a file of this size can contain what its header states. Small images are not checked.
+constexpr bool may_contain(double file_bytes, double packing, double stated_bytes) {
+  constexpr double small = 1 << 26;
+  return stated_bytes <= small || stated_bytes <= packing * file_bytes;
+}
+
 // Interleaved samples to be encoded.
 struct SamplesToEncode {
   int width = 0, height = 0, channel_count = 3;

@@ -141,13 +141,31 @@ std::shared_ptr<const MeasuredTable> Preparation::measured_table(const std::stri
   return place->second;
 }
 
-// A medium that a lenient reading has left out is empty space.
+// The media in which a path can be: those on the sides of surfaces, and the camera's.
+std::vector<bool> media_with_paths(const SceneDesc& desc) {
+  std::vector<bool> has_paths(desc.media.size());
+  const auto mark = [&](std::optional<MediumDescId> id) {
+    if (id) has_paths[std::size_t(*id)] = true;
+  };
+  const auto mark_sides = [&](const std::vector<ShapeDesc>& shapes) {
+    for (const ShapeDesc& shape : shapes)
+      if (shape.media.inside != shape.media.outside) mark(shape.media.inside), mark(shape.media.outside);
+  };
+  mark(desc.camera_medium), mark_sides(desc.shapes);
+  for (const ObjectDesc& object : desc.objects) mark_sides(object.shapes);
+  return has_paths;
+}
+
+// The other media, and those that a lenient reading has left out, are empty space.
 MediumSet Preparation::make_media() {
   MediumSet media;
   const MediumInputs inputs{unbounded_rgb, emission_rgb};
+  const std::vector<bool> has_paths = media_with_paths(desc_);
   const auto add = [&](const auto& stated) { return media.add(stated.build(inputs)); };
-  for (const MediumDesc& medium : desc_.media)
-    medium_numbers_.push_back(medium.model ? std::visit(add, *medium.model) : empty_space);
+  for (std::size_t i = 0; i < desc_.media.size(); ++i) {
+    const std::optional<MediumModel>& model = desc_.media[i].model;
+    medium_numbers_.push_back(model && has_paths[i] ? std::visit(add, *model) : empty_space);
+  }
   return media;
 }
 

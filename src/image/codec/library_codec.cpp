@@ -54,22 +54,15 @@ std::string size_complaint(const OIIO::ImageSpec& spec) {
   return {};
 }
 
-// The maximum ratio of decoded bytes to file bytes: deflate reaches 1032 (zlib's documentation), run lengths and
-// discrete cosines less; the others have no known bound.
 double max_packing(std::string_view format, std::string_view compression) {
-  constexpr double deflate = 1032, unknown = 1 << 18;
-  if (format == "openexr") return compression.starts_with("dwa") ? unknown : deflate;
+  if (format == "openexr") return compression.starts_with("dwa") ? unknown_packing : deflate_packing;
   constexpr std::array<std::string_view, 6> simple{"png", "bmp", "targa", "pnm", "jpeg", "gif"};
-  return std::find(simple.begin(), simple.end(), format) == simple.end() ? unknown : 4 * deflate;
+  return std::find(simple.begin(), simple.end(), format) == simple.end() ? unknown_packing : 4 * deflate_packing;
 }
 
-// Whether a file of this size can contain what its header states. Small images are not checked.
 bool is_plausible(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec, std::uintmax_t file_size) {
-  constexpr std::uint64_t small = std::uint64_t(64) << 20;
-  const std::uint64_t bytes = spec.image_bytes(true), tile = spec.tile_bytes(true);
-  const std::string_view compression = spec.get_string_attribute("compression");
-  const double max_bytes = double(file_size) * max_packing(input.format_name(), compression);
-  return std::max(bytes, tile) <= small || double(std::max(bytes, tile)) <= max_bytes;
+  const double packing = max_packing(input.format_name(), spec.get_string_attribute("compression"));
+  return may_contain(double(file_size), packing, double(std::max(spec.image_bytes(true), spec.tile_bytes(true))));
 }
 
 // A file that is being read: by name, or in memory.

@@ -325,6 +325,24 @@ Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ] "point3 P" [ 0 -9 0  9 -
         scene, way, 64, [&](std::size_t c) { return radiance(c, 2); }, [&](std::size_t c) { return radiance(c, 1.8); });
 }
 
+TEST(Media, that_no_path_can_enter_do_not_count) {
+  const std::string text = R"(MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [ 1 1 1 ]
+MakeNamedMedium "tint" "string type" "homogeneous" "rgb sigma_a" [ 1 2 3 ] "rgb sigma_s" [ 0 0 0 ]
+WorldBegin
+MediumInterface "fog" "fog"
+Shape "sphere"
+Material "dielectric"
+)";
+  const TestScene empty(text), tinted(text + R"(MediumInterface "tint" "" Shape "sphere" "float radius" 2)"),
+      foggy(text + R"(MediumInterface "fog" "" Shape "sphere" "float radius" 2)");
+  EXPECT_TRUE(empty.scene().media.empty());
+  EXPECT_FALSE(tinted.scene().media.empty());
+  EXPECT_FALSE(tinted.scene().has_participating_media());
+  EXPECT_TRUE(foggy.scene().has_participating_media());
+  EXPECT_NO_THROW((void)tinted.integrator("restir-pt"));
+  EXPECT_THROW((void)foggy.integrator("restir-pt"), std::runtime_error);
+}
+
 TEST(Media, are_refused_by_integrators_that_cannot_cross_them) {
   const TestScene scene(slab_scene({{1, 1, 1}, {0, 0, 0}}, 1, 3));
   for (const char* way :
