@@ -46,7 +46,8 @@ class MediumSet {
     return std::uint32_t(rows_.size() - 1);
   }
   bool empty() const { return rows_.size() == 1; }
-  bool scatters() const { return scatters_; }  // whether any medium does
+  std::size_t count() const { return rows_.size(); }  // with empty space
+  bool scatters() const { return scatters_; }         // whether any medium does
   bool emits() const { return emits_; }
 
   template <class F>

@@ -34,10 +34,11 @@ struct Scene {
 
   // Whether rays must be followed through the scene's media event by event: they scatter or emit, rays pass straight
   // from one into another, or the camera is in one, which may have no boundary. Otherwise they absorb alone, each
-  // segment of a path lies in one medium, and Media::left() is all there is to it, as for bodies of glass.
+  // segment of a path lies in one medium, and Media::left() is all there is to it, as for bodies of glass. (Vertices
+  // that are stored have 16 bits for the number of a medium.)
   bool has_participating_media() const {
     return media.scatters() || media.emits() || (!media.empty() && geometry.has_open_boundaries) ||
-           camera_medium != empty_space;
+           camera_medium != empty_space || media.count() > 1u << 16;
   }
 
   // Whether the geometry or the camera moves: only then does a path need a time.

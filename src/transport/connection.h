@@ -28,6 +28,17 @@ struct Arriving {
   F passing;         // probability that a path passes participating media without an event, as mean_passing()
   Mask<F> on;        // nothing blocks it
 };
+
+// The media along the unit wi, of either kind of vertex.
+template <class F>
+MONTELUX_INLINE Media<F> media_toward(const Scene&, const Vertex<F>& v, const Vec3<F>& wi) {
+  return v.media_toward(wi);
+}
+template <class F>
+MONTELUX_INLINE Media<F> media_toward(const Scene& scene, const StoredOrigin<F>& v, const Vec3<F>& wi) {
+  return v.media_toward(scene.media, wi);
+}
+
 // From a point at that distance along the unit wi; `v` is a Vertex or a StoredOrigin. `in_media`: the scene has
 // participating media. `random` decides for surfaces that are interfaces at times. Without `with_passing` that
 // probability is not computed. Adds the rays that are traced to `traced`.
@@ -37,11 +48,12 @@ MONTELUX_INLINE Arriving<F> arriving_from(const Scene& scene, const Rays& rays, 
                                           std::uint64_t& traced) {
   const Ray<F> ray = v.shadow_ray_to(wi, distance);
   if constexpr (in_media) {
-    const Transmitted<F> seen = transmitted<F, with_passing>(scene, rays, ray, v.media_toward(wi), on, random, traced);
+    const Transmitted<F> seen =
+        transmitted<F, with_passing>(scene, rays, ray, media_toward<F>(scene, v, wi), on, random, traced);
     return {seen.left, seen.passing, Mask<F>(on & !is_black(seen.left))};
   } else {
     const Mask<F> open = unblocked<F>(rays, ray, on, traced);
-    return {v.media_toward(wi).left(distance), F(1.0f), open};
+    return {media_toward<F>(scene, v, wi).left(distance), F(1.0f), open};
   }
 }
 
@@ -62,8 +74,8 @@ struct LightConnection {
 };
 
 template <class F>
-LightConnection<F> connect(const LightSet& lights, const StoredOrigin<F>& vertex, const LightPoint<F>& point,
-                           Mask<F> on) {
+LightConnection<F> connect(const MediumSet& media, const LightSet& lights, const StoredOrigin<F>& vertex,
+                           const LightPoint<F>& point, Mask<F> on) {
   const LightPointView<F> view = lights.template view<F>(point, vertex.p, vertex.light_normal, on);
   // A flat light contributes nothing to points in its own plane, and no technique samples it there. Rounding could make
   // the target slightly positive, so that this vertex counts among those that could have produced the sample.
@@ -72,7 +84,7 @@ LightConnection<F> connect(const LightSet& lights, const StoredOrigin<F>& vertex
   const Mask<F> edge_on = has_plane & (abs(dot(point.n, point.p - vertex.p)) <= rounding);
   const Mask<F> queries = on & view.valid & !edge_on;
   const BsdfValue<F> scattered = vertex.scattered(view.wi, queries);
-  const Spectrum<F> arriving = view.radiance * vertex.media_toward(view.wi).left(view.distance);
+  const Spectrum<F> arriving = view.radiance * vertex.media_toward(media, view.wi).left(view.distance);
   const Spectrum<F> value = select(queries, scattered.f_cos * arriving * view.geometry, gray(F(0.0f)));
   const Mask<F> met = queries & (point.place != in_lanes<F>(LightPlace::delta));
   return {view.wi,       view.distance,

@@ -40,6 +40,12 @@ MONTELUX_INLINE Media<F> media_of(const MediumSet& media, Uint<F> medium) {
   return {media.extinction<F>(medium), gray(F(0.0f)), medium};
 }
 
+// The numbers of the media on the sides of a surface, in one word; 0 where it bounds none.
+template <class F>
+MONTELUX_INLINE Uint<F> packed_sides(const SurfaceHit<F>& x) {
+  return select(x.bounds_media, (x.inside << 16) | x.outside, Uint<F>(0u));
+}
+
 // A surface as a boundary of media. Its geometric normal decides which side a direction lies on.
 template <class F>
 class Boundary {
@@ -50,6 +56,15 @@ class Boundary {
     if (media.empty() || !any(x.bounds_media)) return;
     media_ = &media, sides_ = x.bounds_media, inside_ = x.inside, outside_ = x.outside;
     outward_ = face_forward(x.point.ng, bsdf.frame.n);
+  }
+  // The same of a surface that was stored; `sides` are as packed_sides() gives them.
+  MONTELUX_INLINE Boundary(const MediumSet& media, Uint<F> sides, Uint<F> kind, const BsdfSlots<F>& slots,
+                           const Vec3<F>& ng, const LocalFrame<F>& frame)
+      : Boundary(kind, slots, ng, frame) {
+    sides_ = sides != Uint<F>(0u);
+    if (!any(sides_)) return;
+    media_ = &media, inside_ = sides >> 16, outside_ = sides & Uint<F>(0xffffu);
+    outward_ = face_forward(ng, frame.n);
   }
   // Of bodies of glass alone.
   MONTELUX_INLINE Boundary(Uint<F> kind, const BsdfSlots<F>& slots, const Vec3<F>& ng, const LocalFrame<F>& frame)

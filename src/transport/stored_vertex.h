@@ -36,7 +36,7 @@ struct StoredVertex : StoredSurface<F> {
   Vec3<F> light_normal;  // as SurfaceScattering has it
   Vec3<F> wo;            // local
   F time;                // of the whole path
-  Media<F> media;        // on the side of wo
+  Media<F> media;        // along wo
 
   // f |cos| toward a unit direction of the world, and its density.
   BsdfValue<F> scattered(const Vec3<F>& wi, Mask<F> on) const { return this->scattered_from_local(wo, wi, on); }
@@ -50,15 +50,15 @@ struct StoredVertex : StoredSurface<F> {
 // Such a vertex from which rays start.
 template <class F>
 struct StoredOrigin : StoredVertex<F> {
-  Media<F> beyond;  // on the other side
+  Uint<F> sides;  // as packed_sides() gives them
 
-  Media<F> media_toward(const Vec3<F>& wi) const {
-    const Vec3<F> outward = face_forward(this->ng, this->frame.n);
-    const Mask<F> is_inside = dot(outward, this->frame.to_world(this->wo)) < F(0.0f);
-    return select_media<F>((dot(outward, wi) < F(0.0f)) ^ is_inside, beyond, this->media);
+  Media<F> media_toward(const MediumSet& of_scene, const Vec3<F>& wi) const {
+    return MediaAt<F>(this->media, -this->frame.to_world(this->wo), of_scene, sides, this->kind, this->slots, this->ng,
+                      this->frame)
+        .toward(wi);
   }
-  ReferencePoint<F> reference_toward(const Vec3<F>& wi) const {
-    return {this->p, this->light_normal, media_toward(wi)};
+  ReferencePoint<F> reference_toward(const MediumSet& of_scene, const Vec3<F>& wi) const {
+    return {this->p, this->light_normal, media_toward(of_scene, wi)};
   }
   Vec3<F> origin_toward(const Vec3<F>& wi) const { return offset_origin(this->p, this->p_error, this->ng, wi); }
   Ray<F> ray_toward(const Vec3<F>& wi, F t_max = F(ray_infinity)) const {
@@ -88,11 +88,11 @@ StoredVertex<F> stored(const Vertex<F>& v) {
           v.bsdf.light_normal,
           v.wo,
           v.time,
-          v.media.toward(-v.d)};
+          v.media.along_wo()};
 }
 template <class F>
 StoredOrigin<F> stored_origin(const Vertex<F>& v) {
-  return {stored(v), v.media.toward(v.d)};
+  return {stored(v), packed_sides(v.x)};
 }
 
 }  // namespace montelux

@@ -168,7 +168,7 @@ class Frames(ProgramTest):
         off = self.stated("--frames", "0:2", *way, "--set", "carry=off", "-o", "off.#.pfm")
         late = self.stated("--frames", "2:2/3", *way, "-o", "late.#.pfm")
         # Nothing follows the last one. With four components of the spectrum, a pixel has 16 bytes more.
-        sizes = [[16 * 16 * 4 * bytes_] * 2 + [0] for bytes_ in (324, 340)]
+        sizes = [[16 * 16 * 4 * bytes_] * 2 + [0] for bytes_ in (328, 344)]
         self.assertIn([t["history_bytes"] for t in stated], sizes)
         self.assertEqual([t["history_bytes"] for t in off], [0] * 3)
         # The first frame has no history; what begins later has none either.

@@ -97,7 +97,7 @@ bool ChainTracer::trace(const StoredOrigin<float>& from, const Vec3f& w, const C
   chain.w = w, chain.s = frame.s, chain.t = frame.t, chain.left = gray(1.0f), chain.at = {};
   RayDifferential r{to_double(from.p), to_double(w), {}, {to_double(frame.s), to_double(frame.t)}};
   r.dp = {Vec3d{0, 0, 0}, Vec3d{0, 0, 0}};
-  Segment<F> segment{from.ray_toward(w), {}, from.media_toward(w)};
+  Segment<F> segment{from.ray_toward(w), {}, from.media_toward(scene_.media, w)};
   std::uint32_t events = 0, crossings = 0;
   double distance = 0;  // since the last event
   while (events < kind.length) {

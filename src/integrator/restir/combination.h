@@ -48,7 +48,8 @@ class ReuseCombination {
   ReuseCombination(const RestirScene<Rays>& shared, ReuseInputs<F>& inputs, RayCounts& counts)
       : settings_(shared.settings),
         inputs_(inputs),
-        lights_{shared.lights.bvh, shared.rays, inputs.vertices, settings_.visibility_reuse, counts},
+        lights_{shared.scene.media, shared.lights.bvh,          shared.rays,
+                inputs.vertices,    settings_.visibility_reuse, counts},
         scene_(shared.paths()),
         paths_{scene_, inputs.vertices, counts} {}
 

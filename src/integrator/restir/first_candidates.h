@@ -9,12 +9,13 @@ namespace montelux {
 
 // The ways to draw a light.
 struct LightTechniques {
+  const MediumSet& media;  // of the scene
   LightSet bvh;
   std::optional<LightSet> by_power;  // none: not used
   bool are_compensated = false;      // as LightSet has it
 
   LightTechniques(const Scene& scene, const Accel& accel, const RestirSettings& settings)
-      : bvh(scene.lights.with({LightSelection::bvh})) {
+      : media(scene.media), bvh(scene.lights.with({LightSelection::bvh})) {
     if (settings.power_candidates > 0) by_power = scene.lights.with({LightSelection::power});
     if (!settings.bsdf_candidate) return;
     if (auto compensated = compensated_lights(bvh, scene, accel)) bvh = *std::move(compensated), are_compensated = true;
@@ -69,7 +70,7 @@ class FirstCandidates {
       const LightPointDraw<F> draw =
           lights_.bvh.draw_light_point(choice.light, vertex_.p, vertex_.light_normal, u, queries);
       const Mask<F> good = queries & draw.valid;
-      const LightConnection<F> to = connect(lights_.bvh, vertex_, draw.point, good);
+      const LightConnection<F> to = connect(lights_.media, lights_.bvh, vertex_, draw.point, good);
       const F product = draw.density.value * products_of_choice(choice, is_power, good);
       const F w = weight(to, product, good);
       if (!has_beyond) {
@@ -154,7 +155,7 @@ class FirstCandidates {
   }
   void add_met(const LightPoint<F>& point, F product, F u, Mask<F> on) {
     if (!any(on)) return;
-    const LightConnection<F> to = connect(lights_.bvh, vertex_, point, on);
+    const LightConnection<F> to = connect(lights_.media, lights_.bvh, vertex_, point, on);
     all_.add({point, to.target}, weight(to, product + to.by_bsdf.value, on), u);
   }
   // Numbers of samples times probabilities of the choice, over the lights' techniques.

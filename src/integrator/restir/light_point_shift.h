@@ -30,6 +30,7 @@ struct ShiftedLight : Shifted<LightPoint<F>, F> {
 // The domains of a combination of LightReservoirs: the integral over all lights at each of `vertices`.
 template <class F, class Rays>
 struct LightPointDomains {
+  const MediumSet& media;
   const LightSet& lights;
   const Rays& rays;
   std::span<const ReuseVertex<F>> vertices;
@@ -43,7 +44,7 @@ struct LightPointDomains {
   F target_at(int to, const LightPoint<F>& value, Mask<F> on) const { return seen_from(to, value, on).target; }
   // A surface sees what it has.
   LightPointImage<F> own(int of, const LightPoint<F>& value, Mask<F> on) const {
-    const LightConnection<F> way = connect(lights, vertices[std::size_t(of)], value, on);
+    const LightConnection<F> way = connect(media, lights, vertices[std::size_t(of)], value, on);
     return {F(1.0f), way.target, way.value};
   }
   void images(int from, const LightPoint<F>& value, std::span<const Mask<F>> on,
@@ -51,7 +52,7 @@ struct LightPointDomains {
     std::vector<Ray<F>> ways(images.size());
     const auto open = std::make_unique<Mask<F>[]>(images.size());
     for (std::size_t k = 0; k < images.size(); ++k) {
-      const LightConnection<F> way = connect(lights, vertices[k], value, on[k]);
+      const LightConnection<F> way = connect(media, lights, vertices[k], value, on[k]);
       images[k] = {F(1.0f), way.target, way.value};
       open[k] = on[k] & (way.target > F(0.0f)) & Mask<F>(int(k) != from);
       ways[k] = vertices[k].shadow_ray_to(way.wi, way.distance);
@@ -65,7 +66,7 @@ struct LightPointDomains {
  private:
   LightConnection<F> seen_from(int to, const LightPoint<F>& value, Mask<F> on) const {
     const ReuseVertex<F>& vertex = vertices[std::size_t(to)];
-    LightConnection<F> way = connect(lights, vertex, value, on);
+    LightConnection<F> way = connect(media, lights, vertex, value, on);
     if (!sees) return way;
     const Mask<F> open = is_open<F>(rays, vertex, way, on & (way.target > F(0.0f)), counts.shadow);
     way.target = select(open, way.target, F(0.0f));

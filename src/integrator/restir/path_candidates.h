@@ -97,7 +97,7 @@ class PathCandidates {
   M step(M on) {
     PathWalk<F>& w = walk_;
     const EventNumbers<F> led_here(w.numbers, w.events - U(1u));
-    RayProgress<F> way{{{w.o, w.d, F(ray_infinity), w.from.time}, w.hit, w.from.media_toward(w.d)},
+    RayProgress<F> way{{{w.o, w.d, F(ray_infinity), w.from.time}, w.hit, w.from.media_toward(shared_.scene.media, w.d)},
                        gray(F(1.0f)),
                        F(1.0f),
                        w.crossings};
@@ -189,7 +189,7 @@ class PathCandidates {
     sample.point = met.point;
     sample.contribution = select(replays, contribution, sample.contribution);
     if (any(point_of_light)) {
-      const LightConnection<F> to = connect(shared_.lights, w.from, met.point, point_of_light);
+      const LightConnection<F> to = connect(shared_.scene.media, shared_.lights, w.from, met.point, point_of_light);
       sample.contribution = select(point_of_light, w.before * to.value, sample.contribution);
     }
     // Scattered again, a delta would meet with all emitters on its way at once.
@@ -205,7 +205,7 @@ class PathCandidates {
     const LightPointDraw<F> draw = shared_.lights.template draw_light_point<F>(
         choice.light, vertex.p, vertex.light_normal, {own.at(U(1u)), own.at(U(2u))}, on & choice.valid);
     M lit = on & choice.valid & draw.valid;
-    const LightConnection<F> to = connect(shared_.lights, vertex, draw.point, lit);
+    const LightConnection<F> to = connect(shared_.scene.media, shared_.lights, vertex, draw.point, lit);
     lit = is_open<F>(shared_.rays, vertex, to, lit & (to.target > F(0.0f)), counts_.shadow);
     if (!any(lit)) return;
     const Density<SolidAngle, F> density = choice.mass * draw.density;

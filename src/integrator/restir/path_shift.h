@@ -67,8 +67,8 @@ class PathReplay {
     weight_ = select(stays, weight_ * taken.weight, weight_);
 
     const NextVertex<F> at =
-        next_vertex<F>(shared_.scene, shared_.rays, at_->reference_toward(taken.wi), at_->ray_toward(taken.wi), stays,
-                       numbers.surface(), counts_.scattered, NoWeight{});
+        next_vertex<F>(shared_.scene, shared_.rays, at_->reference_toward(shared_.scene.media, taken.wi),
+                       at_->ray_toward(taken.wi), stays, numbers.surface(), counts_.scattered, NoWeight{});
     Spectrum<F> radiance = gray(F(0.0f));
     if (const M ends = stays & last; any(ends)) {
       const M emits = ends & at.found & (at.x.light != U(0u)), left = ends & !at.found;
@@ -77,7 +77,7 @@ class PathReplay {
                                                                 at.x.point.uv, taken.wi, emits),
                         gray(F(0.0f)));
       radiance = select(left, shared_.lights.template escaped_radiance<F>(taken.wi, left), radiance);
-      const Spectrum<F> far = at_->media_toward(taken.wi).left(F(ray_infinity));
+      const Spectrum<F> far = at_->media_toward(shared_.scene.media, taken.wi).left(F(ray_infinity));
       radiance = select(ends, weight_ * select(left, far, at.left) * radiance, gray(F(0.0f)));
     }
     const M moved = stays & !last & at.found;
@@ -106,7 +106,7 @@ class PathReplay {
     const Leg<F> leg = leg_between<F>(at_->p, at.p, at.ng, wi, here.density, good, pixels_);
     good = good & (there.density.value > F(0.0f)) & leg.is_wide(there.density);
     const F geometry = abs(dot(at.ng, wi)) / squared;
-    const Spectrum<F> left = at.boundary().before(at_->media_toward(wi), wi).left(distance);
+    const Spectrum<F> left = at.boundary().before(at_->media_toward(shared_.scene.media, wi), wi).left(distance);
     const Spectrum<F> radiance = weight_ * here.f_cos * there.f_cos * left * sample_.arriving * geometry;
     good = good & (average(radiance) > F(0.0f));
     return select(unblocked<F>(shared_.rays, at_->shadow_ray_to(wi, distance), good, counts_.shadow), radiance,
@@ -114,7 +114,7 @@ class PathReplay {
   }
 
   Spectrum<F> through_light(M on) {
-    const LightConnection<F> to = connect(shared_.lights, *at_, sample_.point, on);
+    const LightConnection<F> to = connect(shared_.scene.media, shared_.lights, *at_, sample_.point, on);
     const M good = on & (to.target > F(0.0f)) & !may_join(to.scattered.density);
     return select(is_open<F>(shared_.rays, *at_, to, good, counts_.shadow), weight_ * to.value, gray(F(0.0f)));
   }

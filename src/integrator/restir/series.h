@@ -385,7 +385,7 @@ class ReuseSeries final : public FrameSeries {
             std::span<PixelSample> out, RayCounts& counts) const {
     const M lit = at.on & (reservoir.weight > F(0.0f));
     if (!any(lit)) return;
-    const LightConnection<F> way = connect(shared_.lights.bvh, vertex, reservoir.value, lit);
+    const LightConnection<F> way = connect(shared_.scene.media, shared_.lights.bvh, vertex, reservoir.value, lit);
     const Spectrum<F> radiance = vertex.throughput * way.value * reservoir.weight;
     // Where targets know what is in the way, the pixel sees whatever it holds.
     const M queries = lit & (way.target > F(0.0f));

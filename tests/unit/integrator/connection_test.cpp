@@ -41,7 +41,7 @@ float largest_target_along(const TestScene& scene, Vec3f o, Vec3f d) {
     for (float u : {0.1f, 0.4f, 0.7f, 0.95f}) {
       const LightPointDraw<float> draw =
           lights.draw_light_point<float>(light, v.x.point.p, {0, 0, 0}, {u, 1 - u}, true);
-      largest = std::max(largest, connect<float>(lights, vertex, draw.point, true).target);
+      largest = std::max(largest, connect<float>(scene.scene().media, lights, vertex, draw.point, true).target);
     }
   return largest;
 }

@@ -248,8 +248,8 @@ double largest_confidence_of(const Reservoirs& reservoirs) {
 }
 // Bytes of a pixel that a series keeps, as docs/reuse.md says for three components. With a fourth one, the four colours
 // of its lights, and three more of its paths, are larger by a float each.
-constexpr std::size_t lights_bytes = 324 + 16 * (spectrum_size - rgb_size);
-constexpr std::size_t paths_bytes = 616 + 28 * (spectrum_size - rgb_size);
+constexpr std::size_t lights_bytes = 328 + 16 * (spectrum_size - rgb_size);
+constexpr std::size_t paths_bytes = 620 + 28 * (spectrum_size - rgb_size);
 
 double largest_confidence(const SeriesMemory& memory) { return largest_confidence_of(opened(memory).lights); }
 
