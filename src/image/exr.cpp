@@ -28,13 +28,11 @@ namespace montelux {
 
 namespace {
 
-constexpr std::string_view magic = "\x76\x2f\x31\x01";
-
 bool begins_like_exr(const std::string& name, const std::string* bytes) {
-  if (bytes) return bytes->starts_with(magic);
-  std::array<char, magic.size()> first{};
+  if (bytes) return bytes->starts_with(exr_magic);
+  std::array<char, exr_magic.size()> first{};
   std::ifstream file(name, std::ios::binary);
-  return file.read(first.data(), first.size()) && std::string_view(first.data(), first.size()) == magic;
+  return file.read(first.data(), first.size()) && std::string_view(first.data(), first.size()) == exr_magic;
 }
 
 // A file in memory.

@@ -3,10 +3,14 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "image/image_codec.h"
 
 namespace montelux {
+
+// With which every such file begins.
+inline constexpr std::string_view exr_magic = "\x76\x2f\x31\x01";
 
 // The image in a file, or in `bytes` if they are not null, as the module would give it, except that the entries of its
 // header keep their names, and that the channels of a layer are in the order red, green, blue, alpha, the others by

@@ -39,7 +39,7 @@ std::optional<std::string> name_by_content(const std::string& bytes) {
   using namespace std::string_view_literals;
   constexpr std::array<std::pair<std::string_view, const char*>, 6> beginnings{{{"\x89PNG"sv, "image.png"},
                                                                                 {"\xff\xd8\xff"sv, "image.jpg"},
-                                                                                {"\x76\x2f\x31\x01"sv, "image.exr"},
+                                                                                {exr_magic, "image.exr"},
                                                                                 {"#?"sv, "image.hdr"},
                                                                                 {"RIFF"sv, "image.webp"},
                                                                                 {"GIF8"sv, "image.gif"}}};

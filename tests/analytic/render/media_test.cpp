@@ -244,17 +244,23 @@ void expect_means_of_bodies(const std::string& scene, std::initializer_list<cons
   for (const char* way : ways) expect_means(scene, way, samples, truth, faulty);
 }
 
-// The ray along the diameter of a ball of glass meets its surface at normal incidence, again and again.
-TEST(AbsorbingGlass, dims_every_passage_of_light_by_a_diameter) {
-  const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}};
-  const std::string scene = head(64) + R"(LookAt 0 0 5  0 0 0  0 1 0
+// A ball of radius 1 that absorbs, around what is `within` it, before a sky of radiance 1.
+std::string glass_ball(const MediumText& medium, double index, const std::string& within = "") {
+  return head(64) + R"(LookAt 0 0 5  0 0 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
-)" + m.text() + R"(WorldBegin
+)" + medium.text() +
+         R"(WorldBegin
 LightSource "infinite" "rgb L" [ 1 1 1 ]
-Material "dielectric" "float eta" 1.5
+)" + within +
+         R"(Material "dielectric" "float eta" )" + std::to_string(index) + R"(
 MediumInterface "m" ""
 Shape "sphere" "float radius" 1
 )";
+}
+
+// The ray along the diameter of a ball of glass meets its surface at normal incidence, again and again.
+TEST(AbsorbingGlass, dims_every_passage_of_light_by_a_diameter) {
+  const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}};
   const double reflected = 0.04;
   const auto radiance = [&](std::size_t c, double diameter) {
     const double passes = std::exp(-m.absorption[c] * diameter), enters = 1 - reflected;
@@ -262,6 +268,7 @@ Shape "sphere" "float radius" 1
   };
   const auto truth = [&](std::size_t c) { return radiance(c, 2); };
   const auto faulty = [&](std::size_t c) { return radiance(c, 1); };
+  const std::string scene = glass_ball(m, 1.5);
   expect_means_of_bodies(scene, {"path", "bdpt", "distribution", "tracepath", "restir-gi", "restir-pt"}, 64, truth,
                          faulty);
   expect_means_of_bodies(scene, {"metropolis"}, 1024, truth, faulty);
@@ -271,19 +278,10 @@ Shape "sphere" "float radius" 1
 // leaves it by another.
 TEST(AbsorbingGlass, dims_what_a_plate_within_it_scatters) {
   const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}};
-  const std::string scene = head(8) + R"(LookAt 0 0 5  0 0 0  0 1 0
-Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
-)" + m.text() + R"(WorldBegin
-LightSource "infinite" "rgb L" [ 1 1 1 ]
-Material "diffuse" "rgb reflectance" [ .5 .5 .5 ]
-Shape "disk" "float radius" 0.5
-Material "dielectric" "float eta" 1
-MediumInterface "m" ""
-Shape "sphere" "float radius" 1
-)";
   const auto radiance = [&](std::size_t c, double radii) { return 0.5 * std::exp(-m.absorption[c] * radii); };
   expect_means_of_bodies(
-      scene, {"path", "bdpt", "vcm", "distribution", "tracepath", "restir-gi", "restir-pt"}, 16,
+      glass_ball(m, 1, "Material \"diffuse\" \"rgb reflectance\" [ .5 .5 .5 ]\nShape \"disk\" \"float radius\" 0.5\n"),
+      {"path", "bdpt", "vcm", "distribution", "tracepath", "restir-gi", "restir-pt"}, 16,
       [&](std::size_t c) { return radiance(c, 2); }, [&](std::size_t c) { return radiance(c, 1); });
 }
 
@@ -305,6 +303,32 @@ Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ]
   expect_means_of_bodies(
       scene, {"path", "bdpt", "vcm", "direct", "distribution", "tracepath", "restir-di", "restir-gi", "restir-pt"}, 16,
       [&](std::size_t c) { return radiance(c, 1); }, [&](std::size_t c) { return radiance(c, 0.9); });
+}
+
+// A sheet over a medium is an interface for half of the rays: the camera's, and those toward the lamp above it.
+TEST(MixedBoundary, lets_its_share_of_shadow_rays_into_the_medium) {
+  const MediumText m{{0.2, 0.7, 1.5}, {0, 0, 0}};
+  const std::string scene = head(1) + R"(LookAt 2 5 0  0 0 0  0 0 1
+Camera "orthographic" "float screenwindow" [ -1e-3 1e-3 -1e-3 1e-3 ]
+)" + m.text() + R"(WorldBegin
+LightSource "point" "point3 from" [ 0 2 0 ] "rgb I" [ 1 1 1 ]
+Material "diffuse" "rgb reflectance" [ .5 .5 .5 ]
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ] "point3 P" [ -9 0 -9   -9 0 9   9 0 9   9 0 -9 ]
+MakeNamedMaterial "black" "string type" "diffuse" "rgb reflectance" [ 0 0 0 ]
+MakeNamedMaterial "open" "string type" "interface"
+Material "mix" "string materials" [ "black" "open" ] "float amount" 0.5
+MediumInterface "m" ""
+Shape "trianglemesh" "integer indices" [ 0 1 2  0 2 3 ] "point3 P" [ -9 1 -9   -9 1 9   9 1 9   9 1 -9 ]
+)";
+  EXPECT_TRUE(TestScene(scene).scene().has_participating_media());
+  const double slant = std::sqrt(29.0) / 5;  // of the camera's ray in the medium
+  const auto radiance = [&](std::size_t c, double share) {
+    return share * 0.5 / std::numbers::pi / 4 * std::exp(-m.absorption[c] * (1 + slant));
+  };
+  for (const char* way : {"path", "bdpt"})
+    expect_means(
+        scene, way, 256, [&](std::size_t c) { return radiance(c, 0.25); },
+        [&](std::size_t c) { return radiance(c, 0.5); });
 }
 
 // Half of the picture is a lamp in the fog, the other half a sky of which an endless fog leaves nothing.
