@@ -413,9 +413,13 @@ class Disk(FilesTest):
 
     def wait_for_write(self, process):
         """Until the temporary file has its bytes."""
+        def size(path):
+            try:
+                return path.stat().st_size
+            except FileNotFoundError:  # the empty file of the check that the folder is writable
+                return 0
         def is_written():
-            with os.scandir(self.folder) as entries:
-                return any(entry.name.startswith(".") and entry.stat().st_size > 0 for entry in entries)
+            return any(path.name.startswith(".") and size(path) > 0 for path in self.folder.iterdir())
         while not is_written():
             self.assertIsNone(process.poll())
             time.sleep(0.002)
