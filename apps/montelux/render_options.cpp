@@ -163,6 +163,7 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
   verb.get_option("--preset")->excludes("--integrator");
   add_option(verb, {"--sampler", alternatives(samplers), "point set; default: the scene's"},
              into(render.sampler, choice(samplers)));
+  add_filter_samples_option(verb, render);
   add_option(
       verb,
       {"--layers", "bounces[:N],light-groups,strategies[:N],alone,errors,motion,halves,intervals",
@@ -190,6 +191,20 @@ void add_algorithm_options(CLI::App& verb, RenderOptions& render) {
 }
 
 }  // namespace
+
+void add_filter_samples_option(CLI::App& verb, RenderOptions& render) {
+  add_option(verb,
+             {"--filter-samples", "shared|own",
+              "shared: each sample counts for all pixels whose filters contain it, which lowers their errors; own: for "
+              "its own pixel alone, so that pixels have independent noise; default: shared, unless layers of light, "
+              "--denoise or halves are requested, or the integrator traces all pixels together"},
+             [&render](const std::string& text) -> Status {
+               const Result<std::string> choice = parse_choice(text, {"shared", "own"});
+               if (!choice) return choice.failure();
+               render.shared_filters = *choice == "shared";
+               return Done{};
+             });
+}
 
 void add_render_options(CLI::App& verb, RenderArguments& arguments) {
   verb.footer(examples);

@@ -34,6 +34,9 @@ struct RenderArguments {
 // Which passes a render has; and their number of samples.
 void add_pass_options(CLI::App& verb, RenderOptions& render);
 
+// For which pixels samples count.
+void add_filter_samples_option(CLI::App& verb, RenderOptions& render);
+
 // `arguments` must outlive the verb.
 void add_render_options(CLI::App& verb, RenderArguments& arguments);
 

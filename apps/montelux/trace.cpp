@@ -202,13 +202,19 @@ void add_trace(CLI::App& app, Action& chosen) {
                return Done{};
              });
   add_pass_options(verb, a.render);
-  for (const char* other : {"--spp", "--seed", "--integrator", "--sampler", "--set", "--passes", "--samples-per-pass"})
+  add_filter_samples_option(verb, a.render);
+  for (const char* other :
+       {"--spp", "--seed", "--integrator", "--sampler", "--set", "--passes", "--samples-per-pass", "--filter-samples"})
     verb.get_option("--film")->excludes(other);
   verb.add_flag("--json", a.json, "the path as one JSON object");
   verb.add_flag("--quiet", a.quiet, "no notes or warnings");
   verb.footer(
-      "With the same --spp, --samples-per-pass, --passes, --seed, --sampler and integrator a sample is the one that "
-      "render took: the\nmean of all is the pixel. A render that ended by --time or --target-error, or is adaptive, is "
+      "With the same --spp, --samples-per-pass, --passes, --seed, --sampler, --filter-samples and integrator a sample "
+      "is "
+      "the one that\nrender took. With --filter-samples own, which --denoise and layers of light imply, the mean of "
+      "all is "
+      "the pixel;\nelse those of its neighbours count as well. A render that ended by --time or --target-error, or is "
+      "adaptive, is "
       "traced by its film\n(render --checkpoint).\n\nExamples:\n"
       "  montelux trace scene.pbrt --pixel 120,45\n"
       "  montelux trace scene.pbrt --pixel 120,45 --sample 17 --spp 64 --json\n"

@@ -10,6 +10,7 @@
 #include "api/comparison_methods.h"
 #include "api/comparison_reference.h"
 #include "lab/compare/pilot.h"
+#include "render/shared_samples.h"
 
 namespace montelux {
 
@@ -24,6 +25,7 @@ Result<lab::ComparisonSettings> settings_of(const LoadedScene::Parts& parts, con
   if (b.x0 < 0 || b.y0 < 0 || b.x1 > r.width || b.y1 > r.height || b.x0 >= b.x1 || b.y0 >= b.y1)
     return Failure{fmt::format("the crop is not inside the picture of {} x {} pixels", r.width, r.height)};
   r.seed = options.seed;
+  if (!parts.scene.pixel_centres) r.sharing = sharing_for(parts.scene.filter);
   settings.render.threads = options.threads;
   settings.warm_up_counts = !options.warm_frames;
   if (options.processor_time) settings.render.clock = processor_seconds;

@@ -67,9 +67,11 @@ EstimatedImage estimated(const PictureEstimate& picture) {
   return {picture.color, bars.standard_error, bars.degrees_of_freedom, bars.error_of_mean, bars.pixels_share_samples};
 }
 
-// Whether the pixels of one pass share samples with an integrator of this name.
-bool shares_samples(std::string_view integrator) {
-  const std::string_view name = integrator.substr(0, integrator.find(':'));
+// Whether the pixels of one pass of this image share samples: through their filters, or by their integrator.
+bool shares_samples(const Image& image) {
+  if (text(image, "montelux:filterSamples") == "shared") return true;
+  const std::string integrator = text(image, "montelux:integrator");
+  const std::string_view name = std::string_view(integrator).substr(0, integrator.find(':'));
   return std::ranges::count(integrators_with(Ability::shared_samples), name) > 0;
 }
 
@@ -100,7 +102,7 @@ Result<PictureEstimate> read_estimate(const PictureFiles& files) {
   ErrorBars bars{std::move(*errors), passes && !files.standard_error ? *passes - 1 : unknown, std::nullopt, false};
   if (!files.standard_error) {
     bars.error_of_mean = rgb_of_header(*image, "montelux:meanStandardError");
-    bars.pixels_share_samples = shares_samples(text(*image, "montelux:integrator"));
+    bars.pixels_share_samples = shares_samples(*image);
   }
   estimate.bars = std::move(bars);
   return estimate;

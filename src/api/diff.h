@@ -18,7 +18,7 @@ struct ErrorBars {
   PixelBuffer standard_error;                          // R, G, B
   double degrees_of_freedom;                           // infinite if unknown
   std::optional<std::array<double, 3>> error_of_mean;  // of the whole image, over its passes
-  bool pixels_share_samples = false;                   // depends on the integrator in the header
+  bool pixels_share_samples = false;                   // by integrator and filter, as the header states
 };
 
 // An image as an estimate.

@@ -23,8 +23,6 @@ using Texts = std::vector<std::string>;
 
 constexpr SavedFormat saved_format{"montelux film", 1, "montelux render --checkpoint", "film"};
 
-constexpr int max_tile_side = 32;  // of any render
-
 Json bounds_json(const PixelBounds& b) { return {b.x0, b.y0, b.x1, b.y1}; }
 PixelBounds bounds_from(const Json& j) {
   return {side_from(j.at(0)), side_from(j.at(1)), side_from(j.at(2)), side_from(j.at(3))};
@@ -37,7 +35,8 @@ Json settings_json(const FilmSettings& s) {
           {"samples_per_pass", s.samples_per_pass},
           {"resolution", {s.width, s.height}},
           {"crop", bounds_json(s.crop)},
-          {"layers", s.layers}};
+          {"layers", s.layers},
+          {"filter_samples", s.shared_filters ? "shared" : "own"}};
 }
 FilmSettings settings_from(const Json& j) {
   FilmSettings s;
@@ -46,6 +45,7 @@ FilmSettings settings_from(const Json& j) {
   s.samples_per_pass = whole_from(j.at("samples_per_pass"), 1, int(max_film_samples));
   s.width = side_from(j.at("resolution").at(0)), s.height = side_from(j.at("resolution").at(1));
   s.crop = bounds_from(j.at("crop"));
+  s.shared_filters = j.value("filter_samples", "own") == "shared";  // those of older versions are not
   const PixelBounds& b = s.crop;
   if (!check_resolution(s.width, s.height) || b.x0 >= b.x1 || b.y0 >= b.y1 || b.x1 > s.width || b.y1 > s.height)
     throw std::invalid_argument("its settings are damaged");
@@ -147,7 +147,7 @@ PictureFacts facts_from(const Json& j, const FilmSettings& settings) {
   const auto content = std::ranges::find(content_names, j.at("content").get<std::string>());
   if (content == std::end(content_names)) throw std::invalid_argument("the content of its picture is damaged");
   f.content = Content(content - std::begin(content_names));
-  f.states_exposure = j.at("states_exposure");
+  f.states_exposure = j.at("states_exposure"), f.shared_filters = settings.shared_filters;
   if (const Json& layers = j.at("layers"); !layers.is_null()) f.layers = layers_from(layers);
   // Films of older versions have none.
   if (const auto choice = j.find("choice"); choice != j.end() && !choice->is_null()) f.choice = choice_from(*choice);
@@ -298,7 +298,7 @@ SavedFilm saved_from(const Json& j, std::string_view bytes) {
   }
   const double seconds = j.at("seconds");
   if (!(seconds >= 0)) throw std::invalid_argument("its time is damaged");
-  Film film = film_from(settings, facts.layers, whole_from(j.at("tile_side"), 1, max_tile_side),
+  Film film = film_from(settings, facts.layers, whole_from(j.at("tile_side"), 1, widest_tile),
                         j.contains("has_emission_rays"), bytes);
   film.set_max_chance_radiance(facts.max_chance_radiance);
   const auto adaptive = j.find("adaptive");
@@ -391,6 +391,7 @@ void take_options(const SavedFilm& film, LoadOptions& load, RenderOptions& optio
   if (!options.crop) options.crop = o.crop;
   if (!options.layers) options.layers = o.layers;
   if (!options.seed) options.seed = film.settings.seed;
+  if (!options.shared_filters) options.shared_filters = film.settings.shared_filters;
   if (!options.samples_per_pass) options.samples_per_pass = film.settings.samples_per_pass;
   if (!options.target) options.target = o.target;
   if (!options.adaptive) options.adaptive = film.adaptive.has_value();

@@ -61,6 +61,7 @@ std::vector<Attribute> header_of(const PictureFacts& facts, const Rendering& ren
       add(fmt::format("measuredBiasStandardError{}", "RGB"[c]), bias->standard_error[std::size_t(c)]);
     }
   add("display", std::string(content_names[std::size_t(facts.content)]));
+  if (facts.shared_filters) add("filterSamples", std::string("shared"));
   add("exposure", std::string(facts.states_exposure ? "stated by the scene" : "not stated"));
   add("missingLight", list_or_none(facts.missing));
   std::vector<std::string> replaced;

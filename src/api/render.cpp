@@ -6,6 +6,7 @@
 #include "api/comparison.h"
 #include "api/film_keeper.h"
 #include "api/render_plan.h"
+#include "render/shared_samples.h"
 
 namespace montelux {
 
@@ -65,7 +66,7 @@ SavedFilm description_of(const LoadedScene::Parts& parts, const RenderPlan& plan
                  fingerprint_of(parts, options),
                  {plan.integrator_text, std::string(name_of(image.sampler)),
                   options.all_layers() ? to_text(*options.all_layers()) : "", image.seed, passes.samples_per_pass,
-                  image.width, image.height, image.bounds},
+                  image.width, image.height, image.bounds, filters_share_samples(image, plan.chosen.any())},
                  options,
                  {},
                  facts_of(parts, plan, plan.settings),

@@ -58,10 +58,11 @@ struct RenderOptions {
   std::optional<LayerRequest> layers;                         // of an integrator that has them
   bool denoise = false;                                       // remove noise; adds the layers of both halves
   std::optional<std::string> denoiser;                        // by this filter, as parse_denoiser() takes it
-  std::optional<ShutterTimes> shutter;                        // default: the file's
-  bool measure_bias = false;                                  // by paired samples of an unbiased integrator
-  std::optional<int> samples_per_pass;                        // default: by the number of samples
-  std::optional<PassRange> passes;                            // only these, of those that the samples make
+  std::optional<bool> shared_filters;   // count for all pixels whose filters contain them; default: where that pays
+  std::optional<ShutterTimes> shutter;  // default: the file's
+  bool measure_bias = false;            // by paired samples of an unbiased integrator
+  std::optional<int> samples_per_pass;  // default: by the number of samples
+  std::optional<PassRange> passes;      // only these, of those that the samples make
   std::optional<FilmCheckpoint> checkpoint;
   SavedFilm* resume = nullptr;  // to be continued, with the options that take_options() gives; its film is moved from
 

@@ -9,6 +9,7 @@
 #include "api/render_plan.h"
 #include "render/adaptive_plan.h"
 #include "render/pass_shares.h"
+#include "render/shared_samples.h"
 #include "render/target_plan.h"
 #include "render/timed_plan.h"
 
@@ -72,17 +73,20 @@ PassesToTarget plan_to_target(const RenderPlan& plan, const RenderSettings& sett
 // Whether the number of samples is decided by others than those of the image.
 bool is_unbiased(const RenderPlan& plan) { return plan.target && plan.target->unbiased; }
 
-// Small tiles, each of which has passes of its own.
-void make_tiles_small(PassPlan& passes) {
+// Small tiles, each of which has passes of its own. Where pixels share samples, those around a tile are traced for it
+// alone, which takes more than small tiles gain.
+void make_tiles_small(const RenderPlan& plan, RenderSettings& settings) {
+  if (filters_share_samples(settings.image, plan.chosen.any())) return;
+  PassPlan& passes = settings.plan;
   const int k = passes.samples_per_pass, side = std::min(adaptive_tile_side(k), passes.tile_side());
   passes.max_unit_samples = side * side * k;
 }
 
 // Gives tiles passes by a pilot. The number of samples that a target needs falls by the gain. `film`: to be saved, if
 // there is one.
-void make_adaptive(const ErrorTarget& target, RenderSettings& settings, const Pilot& pilot, SavedFilm* film) {
-  make_tiles_small(settings.plan);
-  const ImageFigures image = figures_of(pilot.film, pilot.rays, target.measure, settings.plan.tile_side());
+void make_adaptive(const RenderPlan& plan, RenderSettings& settings, const Pilot& pilot, SavedFilm* film) {
+  make_tiles_small(plan, settings);
+  const ImageFigures image = figures_of(pilot.film, pilot.rays, plan.target->error.measure, settings.plan.tile_side());
   const std::vector<double> shares = pass_shares(image, 0);
   int& passes = settings.plan.passes;
   passes = std::max(int(std::ceil(passes / std::max(expected_gain(image, shares), 1.0))),
@@ -118,7 +122,7 @@ std::optional<BegunFilm> begin_adaptive(const RenderPlan& plan, RenderSettings& 
                                         RenderObserver& observer, SavedFilm* film) {
   std::optional<AdaptiveFilm> adaptive = adaptive_film(settings, passes, observer, film);
   if (!adaptive) return std::nullopt;
-  make_tiles_small(settings.plan);
+  make_tiles_small(plan, settings);
   settings.unbiased = nullptr;
   const bool looks = plan.target && !is_unbiased(plan);
   const std::optional<TargetJudge> target = looks ? settings.target : std::nullopt;
@@ -199,7 +203,7 @@ std::optional<BegunFilm> plan_timed(const RenderPlan& plan, RenderSettings& sett
     const int passes = int(std::min(affordable, double(max_film_samples))) / settings.plan.samples_per_pass;
     begun = begin_adaptive(plan, settings, plan.target ? std::nullopt : std::optional(passes), observer, film);
   } else if (plan.adaptive && pilot) {
-    make_adaptive(plan.target->error, settings, *pilot, film);
+    make_adaptive(plan, settings, *pilot, film);
   }
   settings.stop = time.limit(stride);
   before = time.used() - (begun ? begun->seconds : 0);
@@ -231,7 +235,7 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
     const Stopwatch since_start;
     PassesToTarget to_target = plan_to_target(plan, settings, plan.max_samples, observer);
     settings.plan = to_target.passes;
-    if (plan.adaptive && is_unbiased(plan)) make_adaptive(plan.target->error, settings, *to_target.pilot, film);
+    if (plan.adaptive && is_unbiased(plan)) make_adaptive(plan, settings, *to_target.pilot, film);
     before += since_start.seconds();
   }
   if (plan.adaptive && !plan.seconds && (!is_unbiased(plan) || settings.begun))
@@ -243,6 +247,8 @@ Rendering render_picture(const LoadedScene::Parts& parts, RenderPlan& plan, Rend
     state_passes(plan, settings, *film);
     film->begun.seconds = before;
   }
+  if (!plan.adaptive && filters_share_samples(settings.image, plan.chosen.any()))
+    widen_tiles(settings.image.bounds, settings.plan);
   RenderResult result = render(plan.chosen.any(), settings, observer);
   result.seconds += before;
   if (plan.budget) {

@@ -8,6 +8,7 @@
 #include "api/denoisers.h"
 #include "api/shortcomings.h"
 #include "integrator/direct/settings.h"
+#include "render/shared_samples.h"
 #include "render/target_plan.h"
 #include "render/timed_plan.h"
 
@@ -227,6 +228,28 @@ Status check_adaptive(const RenderOptions& options, const ChosenIntegrator& chos
   return Done{};
 }
 
+// Whether pixels share samples: by request, or where that lowers their errors more than it takes.
+Status plan_sharing(const Scene& scene, const RenderOptions& options, RenderPlan& plan) {
+  ImageSettings& image = plan.settings.image;
+  const bool requested = options.shared_filters.value_or(false);
+  if (requested && image.layers) return Failure{"pixels share no samples in images that have layers of light"};
+  // The error that is left would be stated too small.
+  if (requested && image.halves)
+    return Failure{
+        "pixels share no samples where noise is removed, or halves are written for that: it must be "
+        "independent from pixel to pixel"};
+  if (requested && plan.chosen.coupled)
+    return Failure{
+        fmt::format("the integrator {} traces all pixels together: these share no samples through their "
+                    "filters",
+                    plan.chosen.name)};
+  if (requested && options.budget) return Failure{"pixels share no samples with --interactive-budget"};
+  const bool allows = !image.layers && !image.halves && !options.budget && !scene.pixel_centres;
+  if (!allows || !options.shared_filters.value_or(true)) return Done{};
+  image.sharing = sharing_for(scene.filter);
+  return Done{};
+}
+
 }  // namespace
 
 std::string canonical_text(const ChoiceText& choice) {
@@ -293,6 +316,7 @@ Result<RenderPlan> plan_render(const LoadedScene::Parts& parts, const RenderOpti
     plan.settings.image.layers = *std::move(layers);
   }
   if (Status good = plan_image(parts.picture, options, plan.chosen, plan.settings.image); !good) return good.failure();
+  if (Status good = plan_sharing(parts.scene, options, plan); !good) return good.failure();
   const int samples = *preset ? (*preset)->eye_rays : parts.picture.samples;
   if (Status good = plan_samples(options, samples, plan); !good) return good.failure();
   plan.settings.threads = options.threads;
@@ -320,6 +344,7 @@ PictureFacts facts_of(const LoadedScene::Parts& parts, const RenderPlan& plan, c
           plan.replaced,
           plan.chosen.content,
           parts.info.states_exposure,
+          filters_share_samples(settings.image, plan.chosen.any()),
           settings.image.layers,
           plan.target,
           plan.choice,

@@ -18,6 +18,7 @@ struct PictureFacts {
   std::vector<Replacement> replaced;
   Content content = Content::light;
   bool states_exposure = false;
+  bool shared_filters = false;  // as FilmSettings has it
   std::optional<LayerPlan> layers;
   std::optional<TargetRequest> target{};
   std::optional<AutomaticChoice> choice{};
@@ -31,6 +32,7 @@ struct FilmSettings {
   std::uint32_t seed = 0;
   int samples_per_pass = 1, width = 0, height = 0;
   PixelBounds crop;
+  bool shared_filters = false;  // samples count for all pixels whose filters contain them
 };
 
 // How the passes of an adaptive film are divided among its tiles.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "api/film_keeper.h"
 #include "api/render_plan.h"
+#include "render/shared_samples.h"
 
 namespace montelux {
 
@@ -47,9 +49,13 @@ Result<SampleTrace> trace_sample(const LoadedScene& scene, const RenderOptions& 
   const auto pass_of = [&](int number) { return passes[std::size_t(number / in_pass)]; };
   if (sample && (*sample < 0 || *sample >= all))
     return Failure{fmt::format("the pixel has samples 0 to {}; found {}", all - 1, *sample)};
+  std::map<int, SharedSamples> shared;  // by pass
   const auto trace = [&](int number) -> std::optional<TracedPath> {
     TilePass pass{{x, y, x + 1, y + 1}, image.points(pass_of(number), in_pass), image.shutter};
     pass.only = std::uint32_t(number % in_pass);
+    if (filters_share_samples(image, plan.chosen.any()))
+      pass.offsets =
+          shared.try_emplace(pass_of(number), *image.sharing, pass.tile, pass.points).first->second.offsets();
     return plan.chosen.integrator ? plan.chosen.integrator->trace_path(pass) : std::nullopt;
   };
   if (!trace(0))

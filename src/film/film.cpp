@@ -87,7 +87,7 @@ void PixelPass::add(const PixelSample& sample) {
 
 void PixelSums::add(int pass, const PixelPass& added) {
   const PixelFeatures& f = added.features;
-  samples += std::uint32_t(f.samples), hits += std::uint32_t(f.hits), non_finite += std::uint32_t(added.non_finite);
+  samples += std::uint32_t(f.samples), hits.add(f.hits), non_finite += std::uint32_t(added.non_finite);
   emission_rays += std::uint64_t(f.emission_rays);
   if (f.hits == 0 && f.emission == 0) return;
   const double sampled = std::max(f.hits, 1.0);
@@ -132,7 +132,7 @@ std::array<double, rgb_size> PixelSums::mean() const {
 PixelFeatures PixelSums::features() const {
   PixelFeatures f;
   for_each_feature(f, *this, [](double& to, const auto& sum, double) { to = sum.value(); });
-  f.hits = hits, f.samples = samples, f.emission_rays = double(emission_rays), f.object = object;
+  f.hits = hits.value(), f.samples = samples, f.emission_rays = double(emission_rays), f.object = object;
   return f;
 }
 

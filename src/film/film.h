@@ -15,6 +15,7 @@
 #include "film/half_sums.h"
 #include "film/layer_film.h"
 #include "film/picture_error.h"
+#include "film/sample_count.h"
 #include "image/pixel_sample.h"
 #include "mc/exact_moments.h"
 
@@ -80,7 +81,8 @@ struct PixelSums {
   ExactSum emission;  // of the sums over the samples of a pass, as PixelFeatures has them
   FeatureSums sums;
   std::uint32_t passes = 0, half_passes = 0, non_finite = 0;
-  std::uint32_t hits = 0, samples = 0;
+  SampleCount hits;
+  std::uint32_t samples = 0;
   std::uint64_t emission_rays = 0;
   std::uint32_t object = 0;
   int object_pass = 0;  // the first pass in which a sample hit, and so the pass of the object

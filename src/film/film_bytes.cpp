@@ -47,6 +47,11 @@ void ByteWriter::count(std::uint64_t x) {
   out_ += char(x);
 }
 
+// No film has so many samples of a pixel.
+constexpr std::uint64_t first_of_parts = 2ull * max_film_samples;
+
+void ByteWriter::samples(const SampleCount& x) { count(x.is_whole() ? x.whole() : first_of_parts + x.units()); }
+
 void ByteWriter::real(double x) {
   char bytes[8];
   std::memcpy(bytes, &x, 8);
@@ -77,6 +82,13 @@ std::uint64_t ByteReader::count(std::uint64_t max) {
   }
   if (x > max) damaged();
   return x;
+}
+
+SampleCount ByteReader::samples(std::uint64_t max) {
+  const std::uint64_t most = SampleCount::of(max).units(), stated = count(first_of_parts + most);
+  if (stated >= first_of_parts) return SampleCount::of_units(stated - first_of_parts);
+  if (stated > max) damaged();
+  return SampleCount::of(stated);
 }
 
 double ByteReader::real() {
@@ -126,14 +138,15 @@ ExactProducts ByteReader::products() {
 namespace {
 
 void write(ByteWriter& out, const PixelSums& p) {
-  for (std::uint32_t n : {p.passes, p.half_passes, p.non_finite, p.samples, p.hits, p.object}) out.count(n);
+  for (std::uint32_t n : {p.passes, p.half_passes, p.non_finite, p.samples}) out.count(n);
+  out.samples(p.hits), out.count(p.object);
   if (p.object != 0) out.count(std::uint64_t(p.object_pass));
   for (const ExactMoments& channel : p.radiance) out.sum(channel.sum()), out.sum(channel.squares());
   out.sum(p.half);
   // Samples that hit nothing have emission where other rays of theirs have met it.
   out.count(p.emission_rays);
-  if (p.hits == 0 && p.emission_rays > p.samples) out.sum(p.emission);
-  if (p.hits == 0) return;
+  if (p.hits.is_zero() && p.emission_rays > p.samples) out.sum(p.emission);
+  if (p.hits.is_zero()) return;
   for_each_feature(p, p, [&](const auto& sum, const auto&, double) { out.sum(sum); });
 }
 
@@ -141,7 +154,7 @@ PixelSums read_pixel(ByteReader& in, std::uint64_t passes, bool has_emission_ray
   PixelSums p;
   p.passes = std::uint32_t(in.count(passes)), p.half_passes = std::uint32_t(in.count(p.passes));
   p.non_finite = std::uint32_t(in.count(max_film_samples)), p.samples = std::uint32_t(in.count(max_film_samples));
-  p.hits = std::uint32_t(in.count(p.samples)), p.object = std::uint32_t(in.count(0xffffffffu));
+  p.hits = in.samples(p.samples), p.object = std::uint32_t(in.count(0xffffffffu));
   if (p.object != 0) p.object_pass = int(in.count(max_pass_number));
   for (ExactMoments& channel : p.radiance) {
     const ExactSum sum = in.sum(p.passes);
@@ -149,8 +162,8 @@ PixelSums read_pixel(ByteReader& in, std::uint64_t passes, bool has_emission_ray
   }
   p.half = in.sum(p.passes);
   p.emission_rays = has_emission_rays ? in.count(std::uint64_t(p.samples) * max_emission_rays) : p.samples;
-  if (p.hits == 0 && p.emission_rays > p.samples) p.emission = in.sum(p.samples);
-  if (p.hits == 0) return p;
+  if (p.hits.is_zero() && p.emission_rays > p.samples) p.emission = in.sum(p.samples);
+  if (p.hits.is_zero()) return p;
   for_each_feature(p, p, [&]<class Sum>(Sum& sum, const Sum&, double) {
     if constexpr (std::is_same_v<Sum, ExactSum>)
       sum = in.sum(p.samples);

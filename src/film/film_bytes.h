@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "film/sample_count.h"
 #include "math/exact_sum.h"
 
 namespace montelux {
@@ -13,6 +14,8 @@ class ByteWriter {
   explicit ByteWriter(std::string& out) : out_(out) {}
   // In groups of seven bits, the low ones first; every byte but the last one has its high bit set.
   void count(std::uint64_t x);
+  // Whole numbers of samples as counts; others as counts of their units, beyond all of these.
+  void samples(const SampleCount& x);
   // The eight bytes of the number, the low ones first.
   void real(double x);
   // Without zeros at the low end and copies of the sign at the high end.
@@ -30,6 +33,8 @@ class ByteReader {
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
   bool at_end() const { return rest_.empty(); }
   std::uint64_t count(std::uint64_t max);
+  // At most so many whole ones.
+  SampleCount samples(std::uint64_t max);
   double real();
   // `terms`: at most so many numbers below ExactSum::largest were added; a larger sum is an error.
   ExactSum sum(std::uint64_t terms);

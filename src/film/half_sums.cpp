@@ -16,7 +16,7 @@ void HalfSums::add(const PixelPass& sums, bool in_first_half) {
   if (sums.finite > 0)
     for (int c = 0; c < rgb_size; ++c) radiance[c].add(sums.sum[c] / sums.finite);
   const PixelFeatures& f = sums.features;
-  hits += std::uint32_t(f.hits);
+  hits.add(f.hits);
   if (f.hits == 0) return;
   constexpr double max_albedo = feature_limit(feature_channel("albedo"));
   for (int c = 0; c < rgb_size; ++c) albedo[c].add(within(f.albedo(c), max_albedo * f.hits));
@@ -35,15 +35,15 @@ void HalfSums::merge(const HalfSums& other) {
 std::array<PixelHalf, 2> HalfSums::halves(const PixelSums& all) const {
   const double passes = all.passes, first = all.half_passes, second = passes - first;
   const bool both = first > 0 && second > 0;
-  const double rest = double(all.hits) - hits;
+  const double of_all_hits = all.hits.value(), of_first = hits.value(), rest = of_all_hits - of_first;
   const std::array<double, rgb_size> mean = all.mean();
   const PixelFeatures whole = all.features();
   PixelHalf a, b;
   a.share = both ? first / passes : 1, b.share = both ? second / passes : 1;
   // A half of the features is the whole where it has none.
   const auto split = [&](double part, double sum, double& of_a, double& of_b) {
-    const double average = all.hits > 0 ? sum / all.hits : 0;
-    of_a = hits > 0 ? part / hits : average, of_b = rest > 0 ? (sum - part) / rest : average;
+    const double average = of_all_hits > 0 ? sum / of_all_hits : 0;
+    of_a = of_first > 0 ? part / of_first : average, of_b = rest > 0 ? (sum - part) / rest : average;
   };
   for (int c = 0; c < rgb_size; ++c) {
     const double sum = radiance[c].value(), m = mean[std::size_t(c)];
@@ -58,7 +58,7 @@ std::array<PixelHalf, 2> HalfSums::halves(const PixelSums& all) const {
 }
 
 void HalfSums::write(ByteWriter& out) const {
-  out.count(hits);
+  out.samples(hits);
   for (const ExactSum& x : radiance) out.sum(x);
   const bool emits = std::ranges::any_of(std::span(emission), [](const ExactSum(&half)[rgb_size]) {
     return std::ranges::any_of(half, [](const ExactSum& x) { return x.units() != 0; });
@@ -67,18 +67,18 @@ void HalfSums::write(ByteWriter& out) const {
   for (const auto& half : emission)
     for (const ExactSum& x : half)
       if (emits) out.sum(x);
-  if (hits == 0) return;
+  if (hits.is_zero()) return;
   for (const SmallExactSum& x : albedo) out.sum(x);
   for (const SmallExactSum& x : normal) out.sum(x);
 }
 
 void HalfSums::read(const PixelSums& all, ByteReader& in) {
-  hits = std::uint32_t(in.count(all.hits));
+  hits = in.samples(all.hits.whole_above());
   for (ExactSum& x : radiance) x = in.sum(all.half_passes);
   if (in.count(1) == 1)
     for (std::size_t h = 0; h < 2; ++h)
       for (ExactSum& x : emission[h]) x = in.sum(h == 0 ? all.half_passes : all.passes - all.half_passes);
-  if (hits == 0) return;
+  if (hits.is_zero()) return;
   for (SmallExactSum& x : albedo) x = in.small_sum();
   for (SmallExactSum& x : normal) x = in.small_sum();
 }

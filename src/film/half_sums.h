@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "color/rgb.h"
+#include "film/sample_count.h"
 #include "math/exact_sum.h"
 
 namespace montelux {
@@ -26,7 +27,7 @@ struct HalfSums {
   ExactSum radiance[rgb_size];                // of the pass means
   ExactSum emission[2][rgb_size];             // of the pass means, over the first half and over the second
   SmallExactSum albedo[rgb_size], normal[3];  // as PixelSums has them
-  std::uint32_t hits = 0;
+  SampleCount hits;
 
   // A pass of either half.
   void add(const PixelPass& sums, bool in_first_half);

@@ -54,6 +54,17 @@ struct PixelGrid {
 struct PixelSample {
   Rgb radiance{};
   Features features;
+  // Where pixels share samples and lamps in view have rays of their own, the light of emitters that the camera sees
+  // directly is no part of the radiance. For pixels without such rays it is that on the sample's own ray; for its
+  // pixel, if that has them (Features::emission_rays is above 1), it is that on these rays.
+  Rgb emission{}, lamps{};
+  // All light of the sample, as it counts in its own pixel.
+  Rgb light() const {
+    Rgb all = radiance;
+    const Rgb& seen = features.emission_rays > 1 ? lamps : emission;
+    for (int c = 0; c < rgb_size; ++c) all.c[c] += seen.c[c];
+    return all;
+  }
 };
 
 }  // namespace montelux

@@ -9,8 +9,9 @@ namespace montelux {
 // Samples with a component above `limit` are scaled down to it.
 inline void clamp_samples(std::span<PixelSample> samples, float limit) {
   for (PixelSample& sample : samples) {
-    const float brightest = max_component(sample.radiance);
-    if (brightest > limit) sample.radiance = sample.radiance * (limit / brightest);
+    const float brightest = max_component(sample.light());
+    if (!(brightest > limit)) continue;
+    for (Rgb* light : {&sample.radiance, &sample.emission, &sample.lamps}) *light = *light * (limit / brightest);
   }
 }
 

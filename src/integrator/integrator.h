@@ -31,7 +31,10 @@ struct TilePass {
   std::optional<std::uint32_t> only{};    // this one of the samples alone
   std::optional<float> shutter_sample{};  // in [0, 1), of the exposure: of all samples; else each has its own
   std::optional<PixelGrid> grid{};        // the tile counts the cells of this grid; else pixels
-  const StopQuery* stop = nullptr;        // once it wants a stop, the tile may be left unfinished: the caller drops it
+  // Of the samples of every pixel, in their order, from its centre: pixels share samples, so that those of a tile may
+  // lie outside the image. Empty: each sample is drawn from the filter of its own pixel.
+  std::span<const Vec2f> offsets{};
+  const StopQuery* stop = nullptr;  // once it wants a stop, the tile may be left unfinished: the caller drops it
   std::uint32_t samples() const { return only ? 1 : points.samples_per_pass; }
   bool stop_requested() const { return stop && stop->stop_requested(); }
 };

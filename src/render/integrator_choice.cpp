@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "render/shared_samples.h"
 #include "work/scheduler.h"
 
 namespace montelux {
@@ -197,6 +198,10 @@ class Pilots {
         pilot.windows = split_pilot(pilot.windows.front(), compared, coarse_window, windows);
       }
       pairs_[k] = pairs_of(pilots, windows)[1];
+      // Cells share no samples, as the pixels of the image do.
+      if (filters_share_samples(settings_.image, *made_[0]))
+        for (WindowError& error : pairs_[k].first)
+          error.relative *= settings_.image.sharing->noise() / settings_.image.sharing->noise_of_own_samples();
       pairs_[k].is_whole_image = true;
     }
   }

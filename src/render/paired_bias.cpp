@@ -35,7 +35,7 @@ void PairedBias::add(std::size_t tile, int pass, std::span<const PixelSample> bi
   Sum sum;
   sum.pixels = double(biased.size());
   for (std::size_t i = 0; i < biased.size(); ++i) {
-    const Rgb &with = biased[i].radiance, &without = unbiased[i].radiance;
+    const Rgb with = biased[i].light(), without = unbiased[i].light();
     if (!is_finite(with) || !is_finite(without)) continue;
     for (std::size_t c = 0; c < rgb_size; ++c) sum.difference[c] += double(with.c[c]) - double(without.c[c]);
   }

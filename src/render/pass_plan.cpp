@@ -5,7 +5,7 @@
 namespace montelux {
 
 int PassPlan::tile_side() const {
-  int side = 32;
+  int side = max_tile_side;
   while (side > 1 && side * side * samples_per_pass > max_unit_samples) side /= 2;
   return side;
 }

@@ -5,12 +5,16 @@
 
 namespace montelux {
 
+// No tile of a film is wider, in pixels.
+inline constexpr int widest_tile = 64;
+
 struct PassPlan {
   int samples_per_pass = 1;  // per pixel
   int passes = 1;
   int first_pass = 0;              // the passes are this one and the following ones
   int stride = 1;                  // only one pixel of each stride x stride is sampled
   int max_unit_samples = 1 << 16;  // of one unit of work, as far as a pass allows
+  int max_tile_side = 32;          // a power of two, at most that of all plans, widest_tile
   bool synchronous = false;        // a pass begins when the one before is complete: all pixels have equally many
 
   int samples() const { return samples_per_pass * passes; }

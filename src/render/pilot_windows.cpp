@@ -8,6 +8,7 @@
 #include "film/film.h"
 #include "mc/random.h"
 #include "render/float_mode.h"
+#include "render/shared_samples.h"
 
 namespace montelux {
 
@@ -17,6 +18,13 @@ PixelMean mean_of(const PixelPass& pass) {
   PixelMean mean{};
   for (std::size_t c = 0; c < rgb_size; ++c) mean[c] = pass.finite > 0 ? pass.sum[c] / pass.finite : 0;
   return mean;
+}
+
+// The pixels around a small window are more than those around the tiles of a render.
+RayCounts without_surroundings(RayCounts rays, int window, int traced) {
+  for (std::uint64_t* count : {&rays.camera, &rays.scattered, &rays.shadow})
+    *count = *count * std::uint64_t(window) / std::uint64_t(traced);
+  return rays;
 }
 
 }  // namespace
@@ -48,7 +56,14 @@ RayCounts trace_window(const AnyIntegrator& integrator, const ImageSettings& ima
   const FlushDenormals flush;
   std::vector<PixelPass> sums(std::size_t(window.area()));
   RayCounts rays;
-  if (const PixelIntegrator* pixels = integrator.pixel()) {
+  if (const PixelIntegrator* pixels = integrator.pixel(); pixels && image.sharing && !grid) {
+    const SharedSamples shared(*image.sharing, window, image.points(pass, samples));
+    TilePass request{shared.around(), image.points(pass, samples), image.shutter};
+    request.offsets = shared.offsets();
+    std::vector<PixelSample> out(std::size_t(request.tile.area()) * std::size_t(samples));
+    rays = without_surroundings(pixels->trace(request, out), window.area(), request.tile.area());
+    shared.sum(out, sums);
+  } else if (pixels) {
     std::vector<PixelSample> out(sums.size() * std::size_t(samples));
     rays = pixels->trace({window, image.points(pass, samples), image.shutter, {}, {}, grid}, out);
     for (std::size_t i = 0; i < out.size(); ++i) sums[i / std::size_t(samples)].add(out[i]);

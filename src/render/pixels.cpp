@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/paired_bias.h"
+#include "render/shared_samples.h"
 #include "render/watch.h"
 
 namespace montelux {
@@ -148,7 +149,13 @@ class PixelWork final : public StagedWork {
   struct Workspace {
     std::vector<PixelSample> samples, compared, unbiased;
     std::vector<ExactRgb> sums;
+    std::vector<PixelPass> pixels;  // where these share samples
   };
+
+  // Pixels share no samples where only some are sampled, and where the integrator sums layers by itself.
+  bool filters_share_samples() const {
+    return settings_.plan.stride == 1 && settings_.image.sharing && !settings_.image.layers;
+  }
 
   const WorkPlan& plan() const { return settings_.work ? *settings_.work : pass_by_pass_; }
 
@@ -161,16 +168,25 @@ class PixelWork final : public StagedWork {
     TileState& tile = tiles_.at(number);
     if (has(tile, pass)) return;
     const int k = settings_.plan.samples_per_pass;
-    space.samples.resize(std::size_t(tile.bounds.area()) * std::size_t(k));
     TilePass request{tile.bounds, settings_.image.points(pass, k), settings_.image.shutter};
     if (settings_.plan.stride > 1) request.grid = film_.grid();
     request.stop = &drop_;
+    std::optional<SharedSamples> shared;
+    if (filters_share_samples()) {
+      shared.emplace(*settings_.image.sharing, tile.bounds, request.points);
+      request.tile = shared->around(), request.offsets = shared->offsets();
+    }
+    space.samples.resize(std::size_t(request.tile.area()) * std::size_t(k));
     RayCounts rays = trace(request, space);
+    if (shared && !drop_.stop_requested()) shared->sum(space.samples, space.pixels);
     if (paired_) rays += compare(number, pass, request, space);
     {
       const std::scoped_lock lock(tile.mutex);
       if (drop_.stop_requested()) return;
-      film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
+      if (shared)
+        film_.add_pass(tile.bounds, pass, space.pixels);
+      else
+        film_.add_pass(tile.bounds, pass, k, space.samples, space.sums);
       tile.traced += rays;
       const int passes = film_.passes(tile.bounds);
       samples_done_ += samples_of(tile.bounds);
@@ -179,17 +195,22 @@ class PixelWork final : public StagedWork {
   }
 
   // Some of the tile's samples in this pass with unbiased ones.
-  RayCounts compare(std::size_t number, int pass, TilePass request, Workspace& space) {
+  RayCounts compare(std::size_t number, int pass, const TilePass& request, Workspace& space) {
     const int k = settings_.plan.samples_per_pass;
     RayCounts rays;
     for (int sample = 0; sample < k; ++sample) {
       if (!paired_->compares(number, pass, sample)) continue;
       space.compared.clear();
-      for (std::size_t i = std::size_t(sample); i < space.samples.size(); i += std::size_t(k))
-        space.compared.push_back(space.samples[i]);
+      const PixelBounds &traced = request.tile, &tile = tiles_[number].bounds;
+      for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x) {
+          const int pixel = (y - traced.y0) * traced.width() + x - traced.x0;
+          space.compared.push_back(space.samples[std::size_t(pixel) * std::size_t(k) + std::size_t(sample)]);
+        }
       space.unbiased.assign(space.compared.size(), {});
-      request.only = std::uint32_t(sample);
-      rays += paired_->unbiased().trace(request, space.unbiased);
+      TilePass one = request;
+      one.tile = tile, one.only = std::uint32_t(sample);
+      rays += paired_->unbiased().trace(one, space.unbiased);
       if (!drop_.stop_requested()) paired_->add(number, pass, space.compared, space.unbiased);
     }
     return rays;

@@ -16,6 +16,7 @@ namespace montelux::test {
 struct PictureWay {
   std::string integrator, sampler;
   int samples = 0;
+  bool shared_filters = true;  // as renders have it by default
 };
 
 struct PicturePair {
@@ -31,6 +32,7 @@ class PictureScene {
     RenderOptions options;
     options.samples = way.samples, options.seed = seed;
     options.integrator = way.integrator, options.sampler = way.sampler;
+    if (!way.shared_filters) options.shared_filters = false;
     RenderObserver observer;
     Result<Rendering> rendering = render_scene(scene_, options, observer);
     if (!rendering) throw std::runtime_error(rendering.error());

@@ -12,6 +12,7 @@
 #include "integrator/path/tracer.h"
 #include "io/pbrt.h"
 #include "render/render.h"
+#include "render/shared_samples.h"
 #include "scene/prepare.h"
 
 namespace montelux::test {
@@ -77,6 +78,8 @@ class TestScene {
     RenderSettings s;
     s.image.bounds = p.crop, s.image.width = p.width, s.image.height = p.height;
     s.image.sampler = sampler, s.image.seed = seed, s.plan = plan, s.threads = threads;
+    // As renders do by default.
+    if (!scene().pixel_centres) s.image.sharing = sharing_for(scene().filter);
     return s;
   }
   RenderResult render(PointSetKind sampler, PassPlan plan, std::uint32_t seed, Lanes lanes = Lanes::native,

@@ -94,14 +94,19 @@ std::pair<Uint<F>, Uint<F>> pixels_of(const std::optional<PixelGrid>& grid, cons
   return {x, y};
 }
 
-// The camera ray of a sample of a pixel, by the numbers of its sample point.
+// The camera ray of a sample of a pixel, at this point of its filter, by the numbers of its sample point.
 template <class F, NumberSource<F> Numbers>
-PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathSite<F>& site, const Numbers& numbers) {
+PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathSite<F>& site, const Numbers& numbers,
+                           FilterSample<F> filtered) {
   const auto& [x, y, index] = site;
-  FilterSample<F> filtered = scene.filter.sample(numbers.get2(Uint<F>(path_dimension::film)));
   Vec2<F> on_lens = numbers.get2(Uint<F>(path_dimension::lens));
   if (scene.pixel_centres) filtered = {{F(0.0f), F(0.0f)}, F(1.0f)}, on_lens = {F(0.5f), F(0.5f)};
-  Vec2<F> raster{to_float(x) + 0.5f + filtered.offset.x, to_float(y) + 0.5f + filtered.offset.y};
+  // Pixels left of the image, or above it, have numbers below 0.
+  const auto place = [](const Uint<F>& i) {
+    constexpr std::uint32_t beyond = 1u << 16;
+    return to_float(i + Uint<F>(beyond)) - float(beyond);
+  };
+  Vec2<F> raster{place(x) + 0.5f + filtered.offset.x, place(y) + 0.5f + filtered.offset.y};
   F time = 0.0f;
   if (scene.moves()) {
     const F drawn = scene.pixel_centres ? F(0.5f) : numbers.get1(Uint<F>(path_dimension::time));
@@ -118,10 +123,19 @@ PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathS
   return state;
 }
 
-// By those of the pass.
+// At the point that the numbers draw from the filter.
+template <class F, NumberSource<F> Numbers>
+PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathSite<F>& site, const Numbers& numbers) {
+  return start_of_path<F>(scene, pass, site, numbers, scene.filter.sample(numbers.get2(Uint<F>(path_dimension::film))));
+}
+
+// At the offset that the pass states for the sample, if it does.
 template <class F>
 PathStart<F> start_of_path(const Scene& scene, const TilePass& pass, const PathSite<F>& site) {
-  return start_of_path<F>(scene, pass, site, numbers_of<F>(pass.points, site));
+  const auto numbers = numbers_of<F>(pass.points, site);
+  if (pass.offsets.empty()) return start_of_path<F>(scene, pass, site, numbers);
+  const Vec2<F> offset = gather2<F>(&pass.offsets.front().x, site.index * Uint<F>(2u));
+  return start_of_path<F>(scene, pass, site, numbers, {offset, F(1.0f)});
 }
 
 // Camera rays that leave the scene show the sky: in a tally light by light.
@@ -247,7 +261,8 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
     for (int y0 = tile.y0; y0 < tile.y1; y0 += block_y)
       for (int x0 = tile.x0; x0 < tile.x1; x0 += block_x) {
         U x = lane_x + U(std::uint32_t(x0)), y = lane_y + U(std::uint32_t(y0));
-        Mask<F> on = (x < U(std::uint32_t(tile.x1))) & (y < U(std::uint32_t(tile.y1)));
+        Mask<F> on = (U(x - U(std::uint32_t(tile.x0))) < U(std::uint32_t(tile.width()))) &
+                     (U(y - U(std::uint32_t(tile.y0))) < U(std::uint32_t(tile.height())));
         const auto [pixel_x, pixel_y] = pixels_of<F>(pass.grid, pass.points, x, y, U(first + sample));
         PathStart<F> state = start_of_path<F>(scene, pass, {pixel_x, pixel_y, U(first + sample)});
         state.output =
@@ -258,15 +273,37 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
         state.hit = hit;
         rays_ += std::uint64_t(count(on));
         if (lamps.pixels) {
+          const bool is_shared = !pass.offsets.empty();
           const PathSite<F> site{pixel_x, pixel_y, U(first + sample)};
-          if (const Mask<F> wanted = lamps.pixels->template at<F>(scene, rays, site.x, site.y, on); any(wanted)) {
+          const Mask<F> wanted = lamps.pixels->template at<F>(scene, rays, site.x, site.y, on);
+          if (is_shared) {
+            // What counts for pixels without rays of their own.
+            shown_.resize(out.size(), 1);
+            const Ray<F> ray{state.o, state.d, F(ray_infinity), state.time};
+            show_emitters<F>(scene, rays, ray, hit, found, numbers_of<F>(pass.points, site), rays_,
+                             [&](Mask<F> met, const Spectrum<F>& radiance, [[maybe_unused]] const U& light) {
+                               const Spectrum<F> emission = radiance * state.weight;
+                               for_each_lane(met, [&](int k) {
+                                 Rgb& sum = out[lane(state.output, k)].emission;
+                                 const Rgb more = to_rgb(lane(emission, k));
+                                 for (int c = 0; c < rgb_size; ++c) sum.c[c] += more.c[c];
+                               });
+                               if constexpr (TakesEarlyLight<Tally>)
+                                 for_each_lane(met & !wanted, [&](int k) {
+                                   tally.add_early(lane(state.output, k), lane(emission, k),
+                                                   {0, lane(light, k), Technique::emission});
+                                 });
+                             });
+          }
+          if (any(wanted)) {
             shown_.resize(out.size());
             const FilterPart<F> part = lamps.pixels->template part<F>(site.x, site.y, wanted);
             // As many rays over all of the filter would have as many in this part.
             const F as_many = min(F(float(lamps.count)) / part.mass(), F(float(max_emission_rays)));
             for_each_lane(wanted, [&](int k) {
               const std::uint32_t output = lane(state.output, k);
-              shown_[output] = 1, out[output].features.emission_rays = std::uint32_t(lane(as_many, k));
+              shown_[output] = 1;
+              out[output].features.emission_rays = std::uint32_t(lane(as_many, k));
             });
             Spectrum<F> seen = gray(F(0.0f));
             show_lamps<F>(scene, rays, pass, lamps.count, site, part, wanted, rays_,
@@ -278,13 +315,15 @@ FirstHits<F>::FirstHits(const Scene& scene, const Rays& rays, const TilePass& pa
                                                 {0, lane(light, k), Technique::emission});
                               });
                           });
-            const F weight = select(state.weight != F(0.0f), F(1.0f) / state.weight, F(0.0f));
-            state.seen = seen * weight;
-            if (any(in_medium) || scene.materials.has_interfaces()) {
+            if (is_shared) {
+              for_each_lane(wanted, [&](int k) { out[lane(state.output, k)].lamps = to_rgb(lane(seen, k)); });
+            } else {
+              state.seen = seen * select(state.weight != F(0.0f), F(1.0f) / state.weight, F(0.0f));
               // Of paths that meet no surface beyond; the first one writes it again.
               const Spectrum<F> emission = state.seen * state.weight;
-              for_each_lane(wanted,
-                            [&](int k) { out[lane(state.output, k)].features.emission = to_rgb(lane(emission, k)); });
+              if (any(in_medium) || scene.materials.has_interfaces())
+                for_each_lane(wanted,
+                              [&](int k) { out[lane(state.output, k)].features.emission = to_rgb(lane(emission, k)); });
             }
             rays_ += std::uint64_t(count(wanted)) * lamps.count;
           }

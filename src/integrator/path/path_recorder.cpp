@@ -18,7 +18,7 @@ std::optional<TracedPath> PathTracer::trace_path(const TilePass& pass) const {
   };
   settings_.guide ? trace_with(FieldGuide{*settings_.guide}) : trace_with(NoGuide{});
   TracedPath path = std::move(recorder).take();
-  path.radiance = out[0].radiance;  // also of rays that meet nothing, or that are not finite
+  path.radiance = out[0].light();  // also of rays that meet nothing, or that are not finite
   const auto x = std::uint32_t(pass.tile.x0), y = std::uint32_t(pass.tile.y0);
   const PathStart<float> start = start_of_path<float>(scene_, pass, {x, y, pass.only.value_or(0)});
   path.origin = start.o, path.direction = start.d;

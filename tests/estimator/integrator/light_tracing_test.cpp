@@ -17,7 +17,7 @@ PassMeans by_hand(const TestScene& scene, int per_pass, int passes, std::uint32_
   const RenderSettings s = scene.settings(PointSetKind::blue_noise, {per_pass, 1}, seed);
   const LightTracingSettings settings;
   for (int number = 0; number < passes; ++number) {
-    const SeriesPass pass{s.image.bounds, s.image.points(number, per_pass), {}, {}};
+    const SeriesPass pass{s.image.bounds, s.image.points(number, per_pass), {}};
     SplatPlane plane(s.image.bounds, scene.scene().filter);
     Film film(s.image.bounds);
     std::vector<PixelPass> pixels(std::size_t(s.image.bounds.area()));

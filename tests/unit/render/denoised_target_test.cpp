@@ -109,7 +109,7 @@ TEST(DenoisedTarget, gives_the_same_bits_for_any_number_of_threads_and_after_a_s
     RenderSettings s;
     s.threads = threads;
     RenderResult part = render_to(judge_of(target, threads), 5, s, passes - 3);
-    BegunFilm begun{std::move(part.film), part.rays, part.seconds, {}, {}, {}};
+    BegunFilm begun{std::move(part.film), part.rays, part.seconds, {}, {}};
     s.begun = &begun;
     const RenderResult result = render_to(judge_of(target, threads), 5, s);
     ASSERT_EQ(result.film.image().passes, passes);
