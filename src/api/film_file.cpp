@@ -391,7 +391,8 @@ void take_options(const SavedFilm& film, LoadOptions& load, RenderOptions& optio
   if (!options.crop) options.crop = o.crop;
   if (!options.layers) options.layers = o.layers;
   if (!options.seed) options.seed = film.settings.seed;
-  if (!options.shared_filters) options.shared_filters = film.settings.shared_filters;
+  // Where they are, that is the default.
+  if (!options.shared_filters && !film.settings.shared_filters) options.shared_filters = false;
   if (!options.samples_per_pass) options.samples_per_pass = film.settings.samples_per_pass;
   if (!options.target) options.target = o.target;
   if (!options.adaptive) options.adaptive = film.adaptive.has_value();

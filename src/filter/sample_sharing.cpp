@@ -9,6 +9,18 @@ namespace {
 
 constexpr int cells = 1024;
 
+// Rounds the weights to multiples of 2^-20 that sum to 1, as they do except for the steps of the table: so that sums of
+// equal samples are exact.
+void make_exact(std::vector<float>& weights) {
+  constexpr double unit = 0x1p-20, steps = 1e-3;
+  double sum = 0, rest = 1;
+  for (const float w : weights) sum += double(w);
+  if (std::abs(sum - 1) > steps) return;
+  for (float& w : weights) w = float(std::round(double(w) / sum / unit) * unit), rest -= double(w);
+  float& largest = *std::max_element(weights.begin(), weights.end());
+  largest = float(double(largest) + rest);
+}
+
 }  // namespace
 
 SampleSharing::SampleSharing(const Filter& filter)
@@ -53,6 +65,7 @@ float SampleSharing::draw(const Axis& axis, bool is_x, float u, std::vector<floa
   const double offset = low + (scaled - cell) * width, inverse_density = width * cells;
   for (int j = -axis.reach; j <= axis.reach; ++j)
     weights.push_back(float(double(along(is_x, float(offset - j))) * axis.scale * inverse_density));
+  make_exact(weights);
   return float(offset);
 }
 

@@ -61,9 +61,9 @@ std::vector<Channels> channel_weights(const std::vector<float>& signed_weights) 
   return weights;
 }
 
-template <class To, class From>
-void add_weighted(To& to, const Channels& weights, const From& from) {
-  for (std::size_t c = 0; c < to.size(); ++c) to[c] += weights[c] * from[c];
+template <class From>
+void add_weighted(Sums& to, const Channels& weights, const From& from) {
+  for (std::size_t c = 0; c < to.size(); ++c) to[c] += double(weights[c]) * double(from[c]);
 }
 
 // The sums of one pixel: from those of what it shares, and from what belongs to its own samples alone.
@@ -143,7 +143,8 @@ void SharedSamples::sum(std::span<const PixelSample> samples, std::vector<PixelP
   const auto across = std::size_t(all.width()), width = std::size_t(tile_.width()), count = weights_.size();
   const auto taps_x = std::size_t(2 * reach_x_ + 1), taps_y = std::size_t(2 * reach_y_ + 1);
   std::vector<Sums> sums(std::size_t(tile_.area()), Sums{});
-  std::vector<Channels> row(across), filtered(width);
+  std::vector<Channels> row(across);
+  std::vector<Sums> filtered(width);
   std::vector<std::vector<Channels>> x_weights, y_weights;
   for (const SampleSharing::Weights& weights : weights_)
     x_weights.push_back(channel_weights(weights.x)), y_weights.push_back(channel_weights(weights.y));

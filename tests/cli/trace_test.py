@@ -38,14 +38,15 @@ class Trace(ProgramTest):
         return json.loads(self.run_program("trace", scene, *options, "--json").stdout)
 
     def pixel(self, scene, x, y, width, height, *options):
-        """A pixel as render has it, from a .pfm, whose rows begin at the bottom."""
-        self.run_program("render", scene, "-o", "out.pfm", "--resolution", f"{width}x{height}", *options)
+        """A pixel as render has it by its own samples, from a .pfm, whose rows begin at the bottom."""
+        self.run_program("render", scene, "-o", "out.pfm", "--resolution", f"{width}x{height}", "--filter-samples", "own", *options)
         data = (self.folder / "out.pfm").read_bytes()
         values = array.array("f", data[-12 * width * height:])
         return values[3 * ((height - 1 - y) * width + x):][:3]
 
     def test_the_samples_of_a_pixel_are_those_of_the_render(self):
         for scene, options in ((SCENE, ["--spp", "32"]), (self.fog(), ["--spp", "16", "--sampler", "independent"])):
+            options += ["--filter-samples", "own"]
             shown = self.pixel(scene, 3, 2, 4, 4, *options, "--seed", "5")
             found = self.traced(scene, "--resolution", "4x4", "--pixel", "3,2", *options, "--seed", "5")
             for a, b in zip(shown, found["pixel_mean"]):
@@ -53,8 +54,16 @@ class Trace(ProgramTest):
             other = self.traced(scene, "--resolution", "4x4", "--pixel", "3,2", *options, "--seed", "6")
             self.assertNotAlmostEqual(shown[0], other["pixel_mean"][0], delta=1e-4 * shown[0])
 
+    def test_samples_that_count_for_several_pixels_are_those_of_the_render(self):
+        self.run_program("render", SCENE, "--resolution", "4x4", "--spp", "8", "--checkpoint", "a.film", "-o", "a.pfm")
+        by_film = self.traced("--film", "a.film", "--pixel", "3,2")
+        by_scene = self.traced(SCENE, "--resolution", "4x4", "--pixel", "3,2", "--spp", "8")
+        own = self.traced(SCENE, "--resolution", "4x4", "--pixel", "3,2", "--spp", "8", "--filter-samples", "own")
+        self.assertEqual(by_film, by_scene)
+        self.assertNotEqual(by_film["pixel_mean"], own["pixel_mean"])
+
     def test_the_passes_may_be_those_of_any_render_or_of_a_film(self):
-        small = ["--resolution", "4x4", "--seed", "5"]
+        small = ["--resolution", "4x4", "--seed", "5", "--filter-samples", "own"]
         for plan in (["--spp", "16", "--samples-per-pass", "4"], ["--spp", "32", "--passes", "2:5"],
                      ["--time", "20ms"], ["--target-error", "30%", "--spp", "4096"],
                      ["--spp", "256", "--adaptive", "on"]):

@@ -71,8 +71,17 @@ inline GrayPicture read_reference(const ReferenceScene& s) {
   return g;
 }
 
+// By path tracing, with pixels that are independent of each other.
+inline RenderResult render_independent_pixels(const TestScene& scene, PassPlan plan, std::uint32_t seed, int threads) {
+  RenderSettings settings = scene.settings(PointSetKind::padded_sobol, plan, seed, threads);
+  settings.image.sharing = nullptr;
+  const PathTracer path = scene.tracer();
+  RenderObserver silent;
+  return render(path, settings, silent);
+}
+
 // Of a film of a grey scene, whose channels are equal up to rounding. The film's pixels must be independent of each
-// other (any point set but blue_noise).
+// other.
 inline GrayPicture gray_picture(const Film& film) {
   const PixelBounds& b = film.bounds();
   GrayPicture g{b.width(), b.height(), {}, {}, double(film.image().passes) - 1};
@@ -172,7 +181,7 @@ inline constexpr int reference_passes = 32;
 inline Comparison compare_with_reference(const ReferenceScene& s, int samples, int threads) {
   const TestScene scene(read_text(s.scene), s.scene.parent_path().string());
   const PassPlan plan{std::max(1, samples / reference_passes), reference_passes};
-  const RenderResult result = scene.render(PointSetKind::padded_sobol, plan, 1, Lanes::native, threads);
+  const RenderResult result = render_independent_pixels(scene, plan, 1, threads);
   if (result.film.non_finite() > 0) throw std::runtime_error(s.name + ": samples that are not finite");
   return compare(gray_picture(result.film), read_reference(s));
 }

@@ -354,6 +354,7 @@ TEST(Render, less_time_than_a_sample_of_every_pixel_gives_a_sparse_picture) {
 // The cells of a sparse picture are the pixels of the whole one, bit for bit.
 TEST(Render, sparse_pixels_are_those_of_the_whole_picture) {
   RenderSettings s = scene().settings(PointSetKind::independent, {2, 1}, 5, 1);
+  s.image.sharing = nullptr;  // as those of a sparse one have none
   const ChosenIntegrator chosen = scene().integrator("path");
   RenderObserver silent;
   const Film whole = render(chosen.any(), s, silent).film;
