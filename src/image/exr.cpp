@@ -20,9 +20,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 namespace montelux {
 
@@ -33,6 +35,29 @@ bool begins_like_exr(const std::string& name, const std::string* bytes) {
   std::array<char, exr_magic.size()> first{};
   std::ifstream file(name, std::ios::binary);
   return file.read(first.data(), first.size()) && std::string_view(first.data(), first.size()) == exr_magic;
+}
+
+// Whether the entries of all headers fit into a file of this size.
+bool has_whole_headers(std::istream& in, std::uint64_t size) {
+  std::array<char, 8> begin{};  // magic number and version
+  if (!in.read(begin.data(), begin.size())) return true;
+  const bool has_parts = (static_cast<unsigned char>(begin[5]) & 0x10u) != 0;
+  std::string name, type;
+  for (bool was_empty = true; std::getline(in, name, '\0');) {
+    if (name.empty()) {
+      if (!has_parts || std::exchange(was_empty, true)) return true;
+      continue;
+    }
+    was_empty = false;
+    std::array<char, 4> stated{};
+    if (!std::getline(in, type, '\0') || !in.read(stated.data(), stated.size())) return true;
+    std::int32_t length = 0;
+    std::memcpy(&length, stated.data(), stated.size());
+    const auto at = std::uint64_t(in.tellg());
+    if (length < 0 || at > size || std::uint64_t(length) > size - at) return false;
+    in.seekg(length, std::ios::cur);
+  }
+  return true;
 }
 
 // A file in memory.
@@ -182,6 +207,21 @@ std::optional<StoredImage> read_exr(const std::string& name, const std::string* 
   throw;
 } catch (const std::exception&) {
   return std::nullopt;  // damaged
+}
+
+Status check_exr(const std::string& name, const std::string* bytes) {
+  if (!begins_like_exr(name, bytes)) return Done{};
+  std::ifstream file;
+  std::istringstream memory;
+  if (bytes)
+    memory.str(*bytes);
+  else
+    file.open(name, std::ios::binary);
+  std::istream& in = bytes ? static_cast<std::istream&>(memory) : file;
+  std::error_code unknown;
+  const std::uint64_t size = bytes ? bytes->size() : std::filesystem::file_size(name, unknown);
+  if (has_whole_headers(in, size)) return Done{};
+  return Failure{"an entry of its header is larger than the file"};
 }
 
 int exr_threads(int stated) {

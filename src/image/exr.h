@@ -18,6 +18,10 @@ inline constexpr std::string_view exr_magic = "\x76\x2f\x31\x01";
 // less than the full resolution, or is damaged. The module then reads it, or states what is wrong with it.
 std::optional<StoredImage> read_exr(const std::string& name, const std::string* bytes);
 
+// Fails where an entry of the header claims more bytes than the file has: the library would fill so many before it
+// reads them. Other formats, and other faults, pass.
+Status check_exr(const std::string& name, const std::string* bytes);
+
 // How many threads work on a file: at most `stated` (0: all of the machine), and 8, since for each of them the library
 // stores rows that wait to be coded, and rows that are.
 int exr_threads(int stated);

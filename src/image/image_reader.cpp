@@ -59,6 +59,7 @@ std::string bytes_of_usual_file(const std::filesystem::path& path) {
 
 // As stored: directly where that is possible, else by the module. `bytes`: null for a file.
 Result<StoredImage> read_stored(const std::string& name, const std::string* bytes) {
+  if (const Status whole = check_exr(name, bytes); !whole) return whole.failure();
   if (std::optional<StoredImage> exr = read_exr(name, bytes)) return *std::move(exr);
   const std::string of_file = bytes ? std::string() : bytes_of_usual_file(name);
   const std::string& begun = bytes ? *bytes : of_file;

@@ -46,8 +46,8 @@ class Trace(ProgramTest):
 
     def test_the_samples_of_a_pixel_are_those_of_the_render(self):
         for scene, options in ((SCENE, ["--spp", "32"]), (self.fog(), ["--spp", "16", "--sampler", "independent"])):
-            options += ["--filter-samples", "own"]
             shown = self.pixel(scene, 3, 2, 4, 4, *options, "--seed", "5")
+            options += ["--filter-samples", "own"]
             found = self.traced(scene, "--resolution", "4x4", "--pixel", "3,2", *options, "--seed", "5")
             for a, b in zip(shown, found["pixel_mean"]):
                 self.assertAlmostEqual(a, b, delta=2e-6 * abs(b))

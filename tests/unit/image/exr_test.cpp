@@ -194,6 +194,24 @@ TEST_F(ExrFile, of_unusual_kinds_is_left_to_the_module) {
   EXPECT_EQ(both->parts.size(), 2u);
 }
 
+// The library fills as much memory as an entry claims, up to 2 GB, before it reads it.
+TEST_F(ExrFile, whose_header_claims_more_than_there_is_is_refused) {
+  write(file, {{{"R", whole}, {"G", whole}, {"B", whole}}});
+  const std::string content = bytes();
+  EXPECT_TRUE(check_exr("a.exr", &content));
+  const std::string kind = std::string("compression") + '\0';
+  const std::size_t length = content.find(std::string("compression") + '\0' + kind) + 2 * kind.size();
+  ASSERT_LT(length, content.size());
+  for (const auto& [high, low] : {std::pair{0x7f, 0xff}, {0x00, 0x01}, {0xff, 0xff}}) {
+    std::string damaged = content;
+    damaged[length + 3] = char(high), damaged[length + 2] = char(low);
+    EXPECT_FALSE(check_exr("a.exr", &damaged)) << high;
+    const Result<Image> image = read_image("a.exr", damaged);
+    ASSERT_FALSE(image) << high;
+    EXPECT_NE(image.error().find("larger than the file"), std::string::npos) << image.error();
+  }
+}
+
 // Whatever is damaged: no crash, and no image of a part of a file.
 TEST_F(ExrFile, that_is_damaged_is_left_to_the_module) {
   write(file, {{{"R", whole}, {"G", whole}, {"B", whole}}});
