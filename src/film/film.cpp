@@ -13,13 +13,6 @@ namespace montelux {
 
 namespace {
 
-// Whether it is finite, and within the range of the sums.
-bool is_kept(const Rgb& c) {
-  for (float x : c.c)
-    if (!(std::abs(x) < ExactSum::largest)) return false;
-  return true;
-}
-
 bool is_before(const FilmPass& a, const FilmPass& b) { return a.pass < b.pass; }
 
 // The numbers of all passes that any tile has.

@@ -152,11 +152,6 @@ class PixelWork final : public StagedWork {
     std::vector<PixelPass> pixels;  // where these share samples
   };
 
-  // Pixels share no samples where only some are sampled, and where the integrator sums layers by itself.
-  bool filters_share_samples() const {
-    return settings_.plan.stride == 1 && settings_.image.sharing && !settings_.image.layers;
-  }
-
   const WorkPlan& plan() const { return settings_.work ? *settings_.work : pass_by_pass_; }
 
   // Of a tile in one pass.
@@ -172,7 +167,7 @@ class PixelWork final : public StagedWork {
     if (settings_.plan.stride > 1) request.grid = film_.grid();
     request.stop = &drop_;
     std::optional<SharedSamples> shared;
-    if (filters_share_samples()) {
+    if (settings_.plan.stride == 1 && filters_share_samples(settings_.image)) {
       shared.emplace(*settings_.image.sharing, tile.bounds, request.points);
       request.tile = shared->around(), request.offsets = shared->offsets();
     }

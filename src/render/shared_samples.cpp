@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "film/limits.h"
 #include "transport/dimensions.h"
@@ -21,21 +20,21 @@ using Channels = std::array<float, (channel_count + 7) / 8 * 8>;
 // Their sums over samples.
 using Sums = std::array<double, std::tuple_size_v<Channels>>;
 
-bool is_summable(const Rgb& c) {
-  for (const float x : c.c)
-    if (!(std::abs(x) < float(ExactSum::largest))) return false;
-  return true;
+bool is_kept(const PixelSample& sample) {
+  return montelux::is_kept(sample.radiance) && montelux::is_kept(sample.emission) &&
+         montelux::is_kept(sample.features.emission);
 }
 
 Channels channels_of(const PixelSample& sample) {
   Channels channels{};
   const Features& f = sample.features;
-  const std::array<std::pair<std::size_t, const Rgb*>, 3> lights{
-      {{0, &sample.radiance}, {emission, &sample.emission}, {seen_emission, &f.emission}}};
-  const bool is_good = std::ranges::all_of(lights, [](const auto& light) { return is_summable(*light.second); });
-  channels[excluded] = is_good ? 0 : 1;
-  for (const auto& [first, light] : lights)
-    if (is_good) std::copy(std::begin(light->c), std::end(light->c), channels.begin() + std::ptrdiff_t(first));
+  if (is_kept(sample)) {
+    for (std::size_t c = 0; c < rgb_size; ++c)
+      channels[c] = sample.radiance.c[c], channels[emission + c] = sample.emission.c[c],
+      channels[seen_emission + c] = f.emission.c[c];
+  } else {
+    channels[excluded] = 1;
+  }
   if (f.coverage <= 0) return channels;
   channels[hit] = 1;
   [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -73,8 +72,7 @@ PixelPass pass_of(const Sums& sums, std::span<const PixelSample> own) {
   double lamps[rgb_size] = {};
   for (const PixelSample& sample : own) {
     const Features& f = sample.features;
-    (is_summable(sample.radiance) && is_summable(f.emission) && is_summable(sample.emission) ? pass.finite
-                                                                                             : pass.non_finite) += 1;
+    (is_kept(sample) ? pass.finite : pass.non_finite) += 1;
     features.emission_rays += f.emission_rays;
     for (std::size_t c = 0; c < rgb_size; ++c) lamps[c] += sample.lamps.c[c];
     if (features.object == 0 && f.coverage > 0) features.object = f.object;
@@ -113,8 +111,10 @@ std::shared_ptr<const SampleSharing> sharing_for(const Filter& filter) {
   return sharing->noise() * work * min_gain < sharing->noise_of_own_samples() ? sharing : nullptr;
 }
 
+bool filters_share_samples(const ImageSettings& image) { return image.sharing && !image.layers; }
+
 bool filters_share_samples(const ImageSettings& image, const AnyIntegrator& integrator) {
-  return image.sharing && integrator.pixel() && !image.layers;
+  return filters_share_samples(image) && integrator.pixel();
 }
 
 void widen_tiles(const PixelBounds& image, PassPlan& plan) {

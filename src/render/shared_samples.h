@@ -15,8 +15,9 @@ namespace montelux {
 // How pixels of images with this filter share samples; null where it would hardly lower their errors.
 std::shared_ptr<const SampleSharing> sharing_for(const Filter& filter);
 
-// Whether pixels of the image share the samples of the integrator: not those of coupled ones, nor where the integrator
-// sums layers by itself.
+// Whether pixels of the image share the samples of integrators of pixels: not where these sum layers by themselves. And
+// those of this integrator: not of a coupled one.
+bool filters_share_samples(const ImageSettings& image);
 bool filters_share_samples(const ImageSettings& image, const AnyIntegrator& integrator);
 
 // Lets tiles be as wide as large images allow, so that fewer pixels are traced around them.

@@ -115,6 +115,7 @@ TEST(SampleSharing, states_how_much_noise_is_left) {
     filter.x_radius = filter.y_radius = radius;
     return SampleSharing(Filter::build(filter)).noise();
   };
+  // Except for the rounding of weights to 2^-20, of which at most nine are squared.
   EXPECT_NEAR(share(FilterKind::box, 0.5f), 1, 1e-5);
   EXPECT_NEAR(share(FilterKind::box, 1), 0.25, 1e-5);  // means over 2 x 2 pixels
   EXPECT_NEAR(share(FilterKind::triangle, 1), 4.0 / 9, 1e-5);

@@ -68,6 +68,22 @@ Film film_of(const Plane& plane, const RenderSettings& settings) {
   return render(plane, settings, silent).film;
 }
 
+// The p-values of what films show against its expectation, and against that of a fault that is planted: moved by a
+// twentieth of `scale`.
+struct Verdict {
+  double of_truth, of_fault;
+};
+Verdict verdict(const Plane& plane, double expected, double scale, const std::function<double(const Film&)>& shown) {
+  std::vector<double> values;
+  for (std::uint32_t seed = 1; seed <= 16; ++seed)
+    values.push_back(shown(film_of(plane, settings_of(filter_of(FilterKind::triangle, 1), {8, 16}, seed))));
+  return {t_test(values, expected).p_value, t_test(values, expected + scale / 20).p_value};
+}
+void expect_true(const Verdict& verdict) {
+  EXPECT_GT(verdict.of_truth, family_level);
+  EXPECT_LT(verdict.of_fault, family_level);
+}
+
 // The part of a tent of this radius below `edge`, from its centre.
 double tent_below(double edge, double radius) {
   const double t = std::clamp(edge / radius, -1.0, 1.0);
@@ -161,11 +177,12 @@ TEST(SharedSamples, belong_to_features_as_well) {
   const auto coverage = [&](int x) { return film.features(x, 4).hits / film.features(x, 4).samples; };
   EXPECT_EQ(coverage(10), 1);
   EXPECT_EQ(coverage(30), 0);
-  EXPECT_NEAR(coverage(19), tent_below(0.5, 1), 0.002);
-  EXPECT_NEAR(coverage(20), tent_below(-0.5, 1), 0.002);
+  for (const auto& [x, edge] : {std::pair{19, 0.5}, {20, -0.5}})
+    expect_true(verdict(plane, tent_below(edge, 1), 1,
+                        [&, x = x](const Film& f) { return f.features(x, 4).hits / f.features(x, 4).samples; }));
   EXPECT_EQ(film.features(19, 4).object, 3u);
-  const PixelFeatures at_edge = film.features(10, 11);
-  EXPECT_NEAR(at_edge.depth() / at_edge.hits, 5 * tent_below(0.5, 1) + 7 * tent_below(-0.5, 1), 0.005);
+  expect_true(verdict(plane, 5 * tent_below(0.5, 1) + 7 * tent_below(-0.5, 1), 2,
+                      [](const Film& f) { return f.features(10, 11).depth() / f.features(10, 11).hits; }));
   // Filters with negative lobes overshoot, but not where that has no meaning.
   const Film sharp = film_of(plane, settings_of(filter_of(FilterKind::mitchell, 2), {64, 16}, 1));
   double largest = 0;
@@ -216,8 +233,9 @@ TEST(SharedSamples, leave_the_rays_for_lamps_to_their_pixel) {
   EXPECT_NEAR(film.features(10, 10).emission / film.features(10, 10).samples, 5, 1e-5);
   EXPECT_EQ(film.features(10, 10).emission_rays, 8.0 * 256);
   // The filter of a neighbour contains half of the square's width and all of its height within reach.
-  EXPECT_NEAR(film.pixel(9, 10).mean[0], 1 + 8 * tent_below(0, 1), 0.02);
-  EXPECT_NEAR(film.features(9, 10).emission / film.features(9, 10).samples, 8 * tent_below(0, 1), 0.02);
+  expect_true(verdict(plane, 1 + 8 * tent_below(0, 1), 8, [](const Film& f) { return f.pixel(9, 10).mean[0]; }));
+  expect_true(verdict(plane, 8 * tent_below(0, 1), 8,
+                      [](const Film& f) { return f.features(9, 10).emission / f.features(9, 10).samples; }));
 }
 
 TEST(SharedSamples, are_of_pixels_around_a_tile) {
